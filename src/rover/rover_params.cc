@@ -146,6 +146,9 @@ void RoverPhysicsParams::Visit(core::FieldVisitor& v) {
           "multibody: rates are simulated so many times faster than real, and times and velocities "
           "reported as real; for rovers that drive slowly enough to be at rest along the way",
           {1.0, 1000.0}));
+  v.Choice("dynamics", dynamics,
+           Setting("multibody: who accelerates the articulated body; bullet: btMultiBody, within "
+                   "rounding the same, a third slower and with other bits on other processors"));
 }
 
 void RoverParams::Visit(core::FieldVisitor& v) {

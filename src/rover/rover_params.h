@@ -62,11 +62,15 @@ struct RoverContactParams {
   void Visit(core::FieldVisitor& v);
 };
 
+// Whose accelerations of the articulated body the multibody takes.
+enum class Dynamics { kRockyard, kBullet };
+
 struct RoverPhysicsParams {
   double step_s = 1.0 / 60.0;
   std::int64_t solver_iterations = 10;
   double gravity_m_s2 = 9.81;
   double time_scale = 1.0;
+  Dynamics dynamics = Dynamics::kRockyard;
 
   void Visit(core::FieldVisitor& v);
 };
@@ -112,6 +116,11 @@ WheelOnSoil MakeWheelOnSoil(const RoverParams& params, const terrain::SoilParams
 double SteepestHeldSlope_rad(const RoverParams& params, const terrain::SoilParams& soil);
 
 }  // namespace rockyard::rover
+
+template <>
+struct rockyard::core::EnumNames<rockyard::rover::Dynamics> {
+  static constexpr std::array<std::string_view, 2> kNames{"rockyard", "bullet"};
+};
 
 template <>
 struct rockyard::core::EnumNames<rockyard::rover::Fidelity> {

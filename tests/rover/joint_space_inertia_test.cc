@@ -2,13 +2,13 @@
 // energies of points.
 #include "rover/multibody/joint_space_inertia.h"
 
-#include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
-#include <memory>
 
-#include "core/random.h"
+#include "rover/multibody/bullet_rover.h"
+#include "rover/random_numbers.h"
+#include "rover/rover_drive.h"
 #include "rover/rover_layout_params.h"
 
 namespace rockyard::rover {
@@ -20,17 +20,6 @@ struct Configuration {
   math::Transform X_WR = math::Transform::Identity();
   std::array<double, kJoints> joint_rad{};
   messages::PerWheel<double> steer_rad{};
-};
-
-// Numbers for the test with one index, uniform on (-1, 1).
-class Numbers {
- public:
-  explicit Numbers(std::uint32_t index)
-      : stream_({.seed = 11, .trial = index}, core::Purpose::kExperiment) {}
-  double Next() { return 2.0 * stream_.Uniform() - 1.0; }
-
- private:
-  core::RandomStream stream_;
 };
 
 // Any attitude, joints and steering beyond what their stops allow.
@@ -74,100 +63,6 @@ RoverParams Uneven(BogieEnd end) {
                               .chassis_com_x_m = 0.023,
                               .chassis_com_z_m = 0.21}};
 }
-
-// The rover once more as Bullet's body, to be asked for accelerations.
-class BulletRover {
- public:
-  BulletRover(const RoverParams& params, const Configuration& c) {
-    const RoverMasses masses = MakeRoverMasses(params);
-    const RoverGeometry geometry = MakeRoverGeometry(params.geometry);
-    const Vector3 com_R = masses.chassis.com_B;
-    body_ = std::make_unique<btMultiBody>(kJoints, masses.chassis.mass_kg,
-                                          ToBullet(masses.chassis.inertia_kg_m2), false, false);
-    for (const int side : {0, 1}) {
-      const auto i = static_cast<std::size_t>(side);
-      const Vector3 rocker_R = geometry.rocker_pivot_R[i];
-      const Vector3 bogie_R = geometry.bogie_pivot_R[i];
-      Add(kLeftRocker + side, kChassis, masses.rocker, rocker_R - com_R, 0.0);
-      Add(kLeftBogie + side, kLeftRocker + side, masses.bogie, bogie_R - rocker_R, 0.0);
-      for (std::size_t w = 3 * i; w < 3 * i + 3; ++w) {
-        const bool on_bogie = geometry.on_bogie[w];
-        Add(kFirstWheel + static_cast<int>(w), (on_bogie ? kLeftBogie : kLeftRocker) + side,
-            masses.wheel, geometry.wheel_R[w] - (on_bogie ? bogie_R : rocker_R), c.steer_rad[w]);
-      }
-    }
-    body_->finalizeMultiDof();
-    body_->setLinearDamping(0.0);
-    body_->setAngularDamping(0.0);
-    const Eigen::Quaterniond q(c.X_WR.linear());
-    body_->setBasePos(ToBullet(c.X_WR * com_R));
-    body_->setWorldToBaseRot(btQuaternion(q.x(), q.y(), q.z(), q.w()).inverse());
-    for (int joint = 0; joint < kJoints; ++joint) {
-      body_->setJointPos(joint, c.joint_rad[static_cast<std::size_t>(joint)]);
-    }
-    body_->clearVelocities();
-    body_->clearForcesAndTorques();
-  }
-
-  DofMatrix Inverse() {
-    // Fills in the articulated inertias, of which the unit forces make use.
-    Accelerate(1e-3);
-    DofMatrix inverse;
-    for (int dof = 0; dof < kDof; ++dof) {
-      const DofVector force = DofVector::Unit(dof);
-      body_->calcAccelerationDeltasMultiDof(force.data(), inverse.col(dof).data(), scalars_,
-                                            vectors_);
-    }
-    return inverse;
-  }
-
-  void SetVelocity(const DofVector& v) {
-    body_->clearVelocities();
-    body_->applyDeltaVeeMultiDof(v.data(), 1.0);
-  }
-  DofVector Velocity() const { return Eigen::Map<const DofVector>(body_->getVelocityVector()); }
-  // One step of free fall: velocities, then positions.
-  void Fall(double gravity_m_s2, double step_s) {
-    body_->addBaseForce(btVector3(0, 0, -gravity_m_s2 * body_->getBaseMass()));
-    for (int joint = 0; joint < kJoints; ++joint) {
-      body_->addLinkForce(joint, btVector3(0, 0, -gravity_m_s2 * body_->getLinkMass(joint)));
-    }
-    Accelerate(step_s);
-    body_->clearForcesAndTorques();
-    body_->stepPositionsMultiDof(step_s);
-    btAlignedObjectArray<btQuaternion> rotations;
-    body_->forwardKinematics(rotations, vectors_);
-  }
-  // The origin of a joint and its axis, in W.
-  Vector3 Origin(int joint) const {
-    return FromBullet(body_->getLink(joint).m_cachedWorldTransform.getOrigin());
-  }
-  Vector3 Axis(int joint) const {
-    return FromBullet(body_->getLink(joint).m_cachedWorldTransform.getBasis().getColumn(1));
-  }
-  Vector3 ComChassis() const { return FromBullet(body_->getBasePos()); }
-
- private:
-  static btVector3 ToBullet(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
-  static Vector3 FromBullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-
-  void Accelerate(double step_s) {
-    body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(step_s, scalars_, vectors_,
-                                                                matrices_, false, false, false);
-  }
-
-  void Add(int joint, int parent, const BodyMass& mass, const Vector3& from_parent,
-           double steer_rad) {
-    body_->setupRevolute(joint, mass.mass_kg, ToBullet(mass.inertia_kg_m2), parent,
-                         btQuaternion(btVector3(0, 0, 1), -steer_rad), btVector3(0, 1, 0),
-                         ToBullet(from_parent), btVector3(0, 0, 0));
-  }
-
-  std::unique_ptr<btMultiBody> body_;
-  btAlignedObjectArray<btScalar> scalars_;
-  btAlignedObjectArray<btVector3> vectors_;
-  btAlignedObjectArray<btMatrix3x3> matrices_;
-};
 
 // Kinetic energy body by body, 1/2 m v^2 + 1/2 w . I w, with the velocities of each joint's origin
 // and body from those of its parent.
@@ -213,13 +108,15 @@ INSTANTIATE_TEST_SUITE_P(Ends, JointSpaceInertiaOf,
 TEST_P(JointSpaceInertiaOf, RoverHasTheInverseThatUnitForcesShow) {
   const RoverParams params = Uneven(GetParam());
   Multibody body(params);
+  BulletRover bullet(params);
   JointSpaceInertia inertia(params);
   for (std::uint32_t i = 0; i < 200; ++i) {
     Numbers numbers(i);
     const Configuration c = RandomConfiguration(numbers);
     SetConfiguration(c, body);
     inertia.Update(body);
-    const DofMatrix expected = BulletRover(params, c).Inverse();
+    bullet.Take(body);
+    const DofMatrix expected = bullet.Inverse();
     const DofVector scale = expected.diagonal().cwiseSqrt();
     const DofMatrix difference = (inertia.Inverse() - expected).cwiseAbs();
     EXPECT_LT(difference.cwiseQuotient(scale * scale.transpose()).maxCoeff(), 1e-9) << i;
@@ -233,19 +130,19 @@ TEST_P(JointSpaceInertiaOf, RoverFallsAsBulletsDoes) {
   constexpr double kStep_s = 1.0 / 60.0;
   const RoverParams params = Uneven(GetParam());
   Multibody body(params);
+  BulletRover bullet(params);
   JointSpaceInertia inertia(params);
   for (std::uint32_t i = 0; i < 200; ++i) {
     Numbers numbers(3000 + i);
     const Configuration c = RandomConfiguration(numbers);
     SetConfiguration(c, body);
-    BulletRover bullet(params, c);
     const DofVector v = 3.0 * RandomVelocity(numbers);
     body.AddVelocity(v);
-    bullet.SetVelocity(v);
-    bullet.Fall(kGravity_m_s2, kStep_s);
+    bullet.Take(body);
+    const DofVector gain = bullet.Fall(kGravity_m_s2, kStep_s);
+    bullet.Move(kStep_s);
     inertia.Update(body);
     body.AddVelocity(kStep_s * inertia.Accelerations(body.FreeForce(kGravity_m_s2)));
-    const DofVector gain = bullet.Velocity() - v;
     EXPECT_LT((body.Velocity() - v - gain).norm(), 1e-11 * gain.norm()) << i;
     body.Move(kStep_s);
     body.UpdatePoses();
@@ -255,6 +152,21 @@ TEST_P(JointSpaceInertiaOf, RoverFallsAsBulletsDoes) {
       EXPECT_LT((body.X_WB(joint).linear().col(1) - bullet.Axis(joint)).norm(), 1e-12) << i;
     }
   }
+}
+
+// A drive over a rock by Bullet's accelerations is the same drive.
+TEST(JointSpaceInertia, DrivesByBulletsAccelerationsAreTheSame) {
+  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.5, 0.2, 0.0, 0.12, 0.12, 0.05)});
+  RoverParams params;
+  std::array<math::Transform, 2> ends;
+  for (const Dynamics dynamics : {Dynamics::kRockyard, Dynamics::kBullet}) {
+    params.physics.dynamics = dynamics;
+    const auto rover = PlacedRover(params, terrain);
+    RunFor(*rover, Drive(params, 0.15, 0.1), 4.0);
+    ends[dynamics == Dynamics::kBullet ? 1 : 0] = rover->state().X_WR;
+  }
+  EXPECT_LT((ends[0].matrix() - ends[1].matrix()).norm(), 1e-6);
+  EXPECT_GT((ends[0].matrix() - ends[1].matrix()).norm(), 0.0) << "of other roundings";
 }
 
 // To velocities in which the mass is 1 and back; their square is twice the energy, and forces do

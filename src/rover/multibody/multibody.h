@@ -1,8 +1,8 @@
 // The rover's articulated body: chassis, two rockers, two bogies, six wheels; where they are, how
 // they move, and the forces of gravity and of their motion. RockerBogie moves it; both fidelities,
 // parts and links number bodies by the constants below. Poses, Jacobians and forces are those of
-// the last UpdatePoses, which callers owe after each change. The tests hold it against Bullet's
-// btMultiBody. Records depend on the bits of all of it.
+// the last UpdatePoses, which callers owe after each change. The tests hold it against Bullet
+// (bullet_rover.h). Records depend on the bits of all of it.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -66,7 +66,9 @@ RockerBogie::RockerBogie(const RoverParams& params, const terrain::Terrain& terr
       inertia_(params),
       finder_(params.geometry, terrain),
       solver_(params, terrain.ground().soil()),
-      motors_(params) {}
+      motors_(params) {
+  if (params.physics.dynamics == Dynamics::kBullet) bullet_.emplace(params);
+}
 
 RockerBogie::RockerBogie(const RoverParams& params, const terrain::RockHoldingParams& holding,
                          terrain::Terrain& terrain)
@@ -189,7 +191,13 @@ void RockerBogie::Advance(const messages::PerWheel<double>& commanded_rad_s, int
   finder_.Update(body_);
   const DofVector before = body_.Velocity();
   inertia_.Update(body_);
-  body_.AddVelocity(h * inertia_.Accelerations(body_.FreeForce(params_.physics.gravity_m_s2)));
+  const double gravity_m_s2 = params_.physics.gravity_m_s2;
+  if (bullet_) {
+    bullet_->Take(body_);
+    body_.AddVelocity(bullet_->Fall(gravity_m_s2, h));
+  } else {
+    body_.AddVelocity(h * inertia_.Accelerations(body_.FreeForce(gravity_m_s2)));
+  }
   solver_.Solve({inertia_, before, rates, h, patience}, loose_rocks_ ? &*loose_rocks_ : nullptr,
                 finder_, body_);
   CheckMotion(body_.Velocity());

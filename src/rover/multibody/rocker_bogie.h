@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "rover/motor_ramp.h"
+#include "rover/multibody/bullet_rover.h"
 #include "rover/multibody/constraint_solver.h"
 #include "rover/multibody/contact_finder.h"
 #include "rover/multibody/joint_space_inertia.h"
@@ -47,6 +48,7 @@ class RockerBogie final : public Rover {
   const terrain::Terrain& terrain_;
   Multibody body_;
   JointSpaceInertia inertia_;
+  std::optional<BulletRover> bullet_;  // where it accelerates the body
   ContactFinder finder_;
   ConstraintSolver solver_;
   MotorRamp motors_;
