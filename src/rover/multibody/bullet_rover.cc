@@ -45,8 +45,8 @@ BulletRover::BulletRover(const RoverParams& params) {
                                                  : masses.wheel;
     // Bullet asks for the vector from the parent's centre of mass, which is at the parent's joint
     // but for the chassis.
-    const Vector3 from = parent == kChassis ? at_rest.p_WComChassis()
-                                            : Vector3(at_rest.X_WB(parent).translation());
+    const Vector3 from =
+        parent == kChassis ? at_rest.p_WComChassis() : Vector3(at_rest.X_WB(parent).translation());
     body.setupRevolute(joint, mass.mass_kg, ToBullet(mass.inertia_kg_m2), parent,
                        btQuaternion::getIdentity(), btVector3(0, 1, 0),
                        ToBullet(at_rest.X_WB(joint).translation() - from), btVector3(0, 0, 0));
@@ -68,8 +68,8 @@ void BulletRover::Take(const Multibody& from) {
       // Wheels steer by the axes that their joint has at zero; how far they have spun is the same
       // to a body of revolution.
       btMultibodyLink& link = body.getLink(joint);
-      link.m_zeroRotParentToThis = ToFrame(from.X_WB(from.Parent(joint)).linear().transpose() *
-                                           from.X_WB(joint).linear());
+      link.m_zeroRotParentToThis =
+          ToFrame(from.X_WB(from.Parent(joint)).linear().transpose() * from.X_WB(joint).linear());
     }
     body.setJointPos(joint, joint < kFirstWheel ? from.JointAngle(joint) : 0.0);
   }
