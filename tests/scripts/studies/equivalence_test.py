@@ -105,26 +105,27 @@ class Study(StudyTest):
     def verdict(self, *key):
         return self.rows_by_key()[key]["verdict"]
 
-    def test_every_run_once_and_the_shared_one_too(self):
-        self.study()
+    def test_every_run_once_by_all_seeds(self):
+        self.study("--seed", 40)
         runs = self.commands("run")
-        names = ["step/nominal_60", "step/nominal_480", "step/vl2_60", "step/vl2_480",
-                 "fidelity/nominal_quasi_static"]
-        names += [f"fidelity/{cell}_{side}" for cell in ("obstacles_0.85", "k_0.006", "k_0.0085", "slope_10")
-                  for side in ("multibody", "quasi_static")]
+        names = ["step/nominal_60", "step/nominal_480", "step/vl2_60", "step/vl2_480"]
+        names += [f"fidelity/{cell}_{side}_{seed}" for seed in (40, 41, 42) for side in ("multibody", "quasi_static")
+                  for cell in ("nominal", "obstacles_0.85", "k_0.006", "k_0.0085", "vl2", "slope_10")]
         self.assertEqual(set(self.made), {str(self.out / name) for name in names})
-        # The shared one is there when it is asked for again.
-        self.assertEqual((len(runs), sum("--resume" in line for line in runs)), (len(names) + 1, 1))
+        self.assertEqual(len(runs), len(names))
+        self.assertTrue(all(f"--seed {folder[-2:]} " in f"{line} " for folder in names[4:] for line in runs
+                            if f"{self.out / folder} " in f"{line} "))
         self.assertEqual(sum("--trials 2400" in line for line in runs), 2)
-        self.assertEqual(sum("--trials 1000" in line for line in runs), len(names) - 1)
+        self.assertEqual(sum("--trials 1000" in line for line in runs), len(names) - 2)
         self.assertEqual(sum("step_s=0.0020833333333333333" in line for line in runs), 2)
-        self.assertEqual(sum("fidelity=quasi_static" in line for line in runs), 5)
+        self.assertEqual(sum("fidelity=quasi_static" in line for line in runs), 18)
         for change in ("rocks.k_per_m2=0.006 ", "rocks.k_per_m2=0.0085 ", "ground.slope_deg=10 ",
                        "/obstacles_0.85.json"):
-            self.assertEqual(sum(change in f"{line} " for line in runs), 2, change)
-        self.assertEqual(len(self.rows_by_key()), 7 * 7)
+            self.assertEqual(sum(change in f"{line} " for line in runs), 6, change)
+        self.assertEqual(len(self.rows_by_key()), 8 * 7)
+        self.assertEqual(self.rows_by_key()["fidelity", "nominal", "jams (%)"]["pairs"], "3000")
         judged = [row["verdict"] for row in self.rows_by_key().values() if row["margin"]]
-        self.assertEqual(judged, ["equivalent"] * 14)
+        self.assertEqual(judged, ["equivalent"] * 16)
 
     def test_runs_that_are_there_are_gone_on_with_and_never_set_aside(self):
         self.study("--studies", "step", "--trials", 10, code=1)
@@ -138,20 +139,14 @@ class Study(StudyTest):
         self.study("--studies", "step", "--trials", 50, code=1)
         self.assertEqual({row["pairs"] for row in self.rows_by_key().values()}, {"50"})
 
-    def test_the_shared_run_is_taken_from_either_folder(self):
-        shared = self.out / "fidelity/nominal_multibody"
-        shared.mkdir(parents=True)
-        self.study("--studies", "step", "--trials", 9, code=1)
-        self.assertEqual([folder in self.made for folder in map(str, (shared, self.out / "step/nominal_60"))], [True, False])
-
     def test_runs_of_other_settings_are_refused(self):
         self.study("--studies", "step", "--trials", 10, code=1)
         for change in (["--seed", 2], ["--set", "clock.stop_time_s=0.1"]):
             self.assertIn("exit code 2", self.study("--studies", "step", "--trials", 10, *change, code=1).err)
 
     def test_what_is_beyond_the_margin_is_not_equivalent(self):
-        # Of 1000 pairs: 70 lie beyond 5 points, the interval of 45 holds them, that of 30 does not.
-        for lost, code, wanted in ((70, 1, "different"), (45, 1, "cannot tell"), (30, 0, "equivalent")):
+        # Of 1000 pairs by three seeds: 40 lie beyond 3 points, the interval of 28 holds them, that of 20 does not.
+        for lost, code, wanted in ((40, 1, "different"), (28, 1, "cannot tell"), (20, 0, "equivalent")):
             self.made.clear()
             self.study(changed="quasi_static", lost=lost, code=code)
             for kind in ("declared success (%)", "true success (%)"):
@@ -159,7 +154,8 @@ class Study(StudyTest):
                 self.assertEqual(self.verdict("step", "nominal", kind), "equivalent")
             row = self.rows_by_key()["fidelity", "nominal", "true success (%)"]
             self.assertAlmostEqual(float(row["difference"]), -lost / 10)
-            self.assertEqual((row["only_first"], row["only_second"]), (str(lost), "0"))
+            self.assertEqual(row["by_seed"], " ".join([f"{-lost / 10:.1f}"] * 3))
+            self.assertEqual((row["only_first"], row["only_second"]), (str(3 * lost), "0"))
             self.assertLess(float(row["low"]), -lost / 10)
 
     def test_a_false_goal_is_a_declared_success_only(self):
@@ -208,8 +204,8 @@ class Study(StudyTest):
         self.study("--studies", "fidelity", "--trials", 20, code=1)
         for trials in (9, 10):
             self.study("--studies", "step", "--trials", trials, code=1)
-        self.assertEqual(len(self.rows_by_key()), 7 * 7)
-        self.assertEqual(self.rows_by_key()["fidelity", "slope_10", "jams (%)"]["pairs"], "20")
+        self.assertEqual(len(self.rows_by_key()), 8 * 7)
+        self.assertEqual(self.rows_by_key()["fidelity", "slope_10", "jams (%)"]["pairs"], "18")
 
     def test_two_programs_are_named(self):
         runs = iter("abcd")
