@@ -50,6 +50,8 @@ struct RimShape {
   double width_m = 0.0;
   double lug_height_m = 0.0;
   int lug_count = 0;
+
+  bool operator==(const RimShape&) const = default;
 };
 
 // What the soil does to a wheel at one slip and one depth.

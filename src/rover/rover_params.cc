@@ -227,8 +227,10 @@ ComRange StandingComRange(const RoverParams& params) {
 }
 
 WheelOnSoil MakeWheelOnSoil(const RoverParams& params, const terrain::SoilParams& soil) {
-  return {soil, RimShapeOf(params.geometry), params.physics.gravity_m_s2,
-          params.mass.total_kg * params.physics.gravity_m_s2};
+  const WheelOnSoil::Case of{soil, RimShapeOf(params.geometry), params.physics.gravity_m_s2,
+                             params.mass.total_kg * params.physics.gravity_m_s2};
+  if (params.made_wheel != nullptr && params.made_wheel->of() == of) return *params.made_wheel;
+  return WheelOnSoil(of);
 }
 
 double SteepestHeldSlope_rad(const RoverParams& params, const terrain::SoilParams& soil) {

@@ -163,13 +163,13 @@ SoilAnswer RimStressTable::At(double load_N, double dug_slip) const {
   return answer;
 }
 
-WheelOnSoil::WheelOnSoil(const terrain::SoilParams& soil, const RimShape& wheel,
-                         double gravity_m_s2, double max_N)
-    : rut_(soil, wheel.radius_m, wheel.width_m),
-      shear_modulus_m_(soil.shear_modulus_m),
-      digs_(soil.law != WheelLaw::kBekker || soil.slip_sinkage.enabled) {
-  if (soil.law == WheelLaw::kBekker) return;
-  stress_ = std::make_shared<RimStressTable>(RimStress(soil, wheel, gravity_m_s2), wheel, max_N);
+WheelOnSoil::WheelOnSoil(const Case& of)
+    : of_(of),
+      rut_(of.soil, of.wheel.radius_m, of.wheel.width_m),
+      digs_(of.soil.law != WheelLaw::kBekker || of.soil.slip_sinkage.enabled) {
+  if (of.soil.law == WheelLaw::kBekker) return;
+  stress_ = std::make_shared<RimStressTable>(RimStress(of.soil, of.wheel, of.gravity_m_s2),
+                                             of.wheel, of.max_N);
 }
 
 SoilAnswer WheelOnSoil::Under(double load_N, double dug_slip) const {
@@ -179,7 +179,7 @@ SoilAnswer WheelOnSoil::Under(double load_N, double dug_slip) const {
           rut.stiffness_N_m,
           rut.largest_traction_N,
           rut.resistance_N,
-          rut.contact_length_m / shear_modulus_m_,
+          rut.contact_length_m / of_.soil.shear_modulus_m,
           0.0};
 }
 

@@ -61,9 +61,20 @@ class RimStressTable {
 // One kind of wheel on one soil. Copies share the table.
 class WheelOnSoil {
  public:
-  // max_N: the largest load that matters to a law of stresses, as the weight of the rover.
+  // What it is made of.
+  struct Case {
+    terrain::SoilParams soil;
+    RimShape wheel;
+    double gravity_m_s2;
+    double max_N;  // the largest load that matters to a law of stresses, as the rover's weight
+
+    bool operator==(const Case&) const = default;
+  };
+  explicit WheelOnSoil(const Case& of);
   WheelOnSoil(const terrain::SoilParams& soil, const RimShape& wheel, double gravity_m_s2,
-              double max_N);
+              double max_N)
+      : WheelOnSoil(Case{soil, wheel, gravity_m_s2, max_N}) {}
+  const Case& of() const { return of_; }
 
   // Returns the answer to a load > 0 of a wheel that has dug in for a slip in [0, 1].
   SoilAnswer Under(double load_N, double dug_slip) const;
@@ -73,8 +84,8 @@ class WheelOnSoil {
   bool digs() const { return digs_; }
 
  private:
+  Case of_;
   WheelRut rut_;
-  double shear_modulus_m_;
   bool digs_;
   std::shared_ptr<const RimStressTable> stress_;  // null: Bekker's law
 };

@@ -37,6 +37,7 @@ struct SlipSinkageParams {
   double length_m = 0.1;
 
   void Visit(core::FieldVisitor& v);
+  bool operator==(const SlipSinkageParams&) const = default;
 };
 
 // How far the soil of one place lies from what is said of it: standard deviations.
@@ -51,6 +52,7 @@ struct SoilSpreadParams {
   double log_density = 0.04;
 
   void Visit(core::FieldVisitor& v);
+  bool operator==(const SoilSpreadParams&) const = default;
 };
 
 // The defaults are landscaping_sand: MakeSoil returns them for that preset.
@@ -71,6 +73,7 @@ struct SoilParams {
   // Visits the preset first: another preset replaces the defaults of the values that follow, which
   // the same file may then state; slip_sinkage and spread stay.
   void Visit(core::FieldVisitor& v);
+  bool operator==(const SoilParams&) const = default;
 };
 
 // Returns the values of a preset.

@@ -46,6 +46,10 @@ struct DriveResult {
   DriveEnd end;
 };
 
+// Returns the drive with what all of its trials can share, made once: tables that each of them makes
+// for itself otherwise. No result depends on it.
+DriveParams ShareTables(DriveParams drive);
+
 // Drives the trial that `key` names. Must stay: the result is a pure function of (drive, key), bit
 // for bit; stores, pairs of runs, replays and kept hashes rely on it. `trace` records the course of
 // the drive, and `watchers` are shown what is seen and decided, without any influence on the drive.

@@ -25,20 +25,21 @@ using testing::ElementsAre;
 using testing::Ge;
 using testing::SizeIs;
 
-// Trial 7 of nominal: hundreds of scans, several settings back, and no arrival.
+// Trial 26 of nominal: hundreds of scans, several settings back, and no arrival.
 class ReplayPayloadTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     source_ = SourceOf("pathfinder/nominal");
-    payload_ = PayloadOf(source_, 7);
+    payload_ = PayloadOf(source_, kTrial);
   }
 
+  static constexpr std::uint32_t kTrial = 26;
   static inline TrialSource source_;
   static inline Json payload_;
 };
 
 TEST_F(ReplayPayloadTest, EndsWhereTheRecordDoes) {
-  const trial::DriveResult driven = trial::RunTrial(source_.scenario.drive, {source_.seed, 7});
+  const trial::DriveResult driven = trial::RunTrial(source_.scenario.drive, {source_.seed, kTrial});
   EXPECT_EQ(payload_["outcome"], std::string(truth::Name(driven.outcome)));
   EXPECT_EQ(Channel(payload_, "x").back(), ValueOf(payload_, "final_x_m"));
   EXPECT_EQ(Channel(payload_, "y").back(), ValueOf(payload_, "final_y_m"));
@@ -129,7 +130,7 @@ TEST_F(ReplayPayloadTest, ScansStandInTheRecordAndShowTheGround) {
 
 // The whole course, not thinned, against what the page shows between its moments.
 TEST_F(ReplayPayloadTest, LeavesOutNoMomentThatIsFurtherOffThanItSays) {
-  const DriveRecording recording = RecordDrive(source_.scenario, source_.seed, 7);
+  const DriveRecording recording = RecordDrive(source_.scenario, source_.seed, kTrial);
   const auto poses = PosesOf(source_.scenario, recording.traced.trace);
   const replay::ThinnedMotion motion = replay::ThinMotion(poses);
   EXPECT_EQ(motion.kept.size(), Channel(payload_, "t").size());

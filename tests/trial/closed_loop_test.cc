@@ -327,16 +327,10 @@ TEST(MirrorLine, OnlyADrivingRoverIsReflected) {
 
 // In this trial the rover comes to rest on a rock at the line, steers, and slides back to the
 // heading from which it was turned. Turned at every tick it could never finish steering, nor the
-// trial end. With the stretches and the soil for which it was found; with others the rover takes
-// another way.
+// trial end. Of 3000 such trials it is the second in how often that happens.
 TEST(MirrorLine, ARoverThatWasTurnedDrivesBeforeItIsTurnedAgain) {
-  const auto [result, trace] = RunTraced(
-      Pathfinder("vl2", {"rover.fidelity=quasi_static", "rover.quasi_static.rock_settle_share=1",
-                         "terrain.ground.soil.law=bekker", "sensors.gyro.level_sand_gain=1.25",
-                         "sensors.encoders.physics_variance_m2_per_m=1.9e-6",
-                         "sensors.encoders.level_sand_gain=0.9201",
-                         "perception.dead_reckoning.distance_scale=0.9201"}),
-      1342, 77);
+  const auto [result, trace] =
+      RunTraced(Pathfinder("vl2", {"rover.fidelity=quasi_static"}), 370, 77);
   EXPECT_EQ(result.outcome, truth::TrialOutcome::kNoPath);
   std::optional<double> last_s;
   int pairs = 0;

@@ -81,19 +81,17 @@ TEST(ContinuousTrial, WithLatencyAPlanBeginsOffByWhatTheRoverSees) {
   EXPECT_EQ(estimated.plan_start_error_m, 0.0);
 }
 
-// A computer that is slower than the motion leaves the rover standing for each plan, and one that
-// is quick enough never does. On the sand and with the odometer for which it was found: where the
-// rover is believed to drift off, arcs are tight, and tight arcs are slow.
+// A computer that is slower than the motion leaves the rover standing for nearly each plan of a
+// drive that steers while it moves. Where wheels are steered at rest, arcs are as tight as turns,
+// and many are driven so slowly that the plan is ready in time: in eight such drives a quarter to
+// four fifths were late.
 TEST(ContinuousTrial, ASlowComputerMakesPlansLate) {
-  const Overrides slow =
-      kEmpty + Overrides{"clock.compute.computer=mer_rad6000",
-                         "sensors.visual_odometry.enabled=false",
-                         "localization.estimator=dead_reckoning", "terrain.ground.soil.law=bekker",
-                         "perception.dead_reckoning.distance_scale=0.9465"};
-  for (const char* cycle : {"csod", "csad"}) {
+  const Overrides slow = kEmpty + Overrides{"clock.compute.computer=mer_rad6000",
+                                            "sensors.visual_odometry.enabled=false",
+                                            "localization.estimator=dead_reckoning"};
+  for (const auto& [cycle, share] : {std::pair("csod", 0.25), std::pair("csad", 0.9)}) {
     const DriveRecord late = Record(cycle, slow);
-    // Tight arcs are driven so slowly that some plans are ready in time.
-    EXPECT_GE(late.late_plans, 0.5 * late.plans_on_the_move) << cycle;
+    EXPECT_GE(late.late_plans, share * late.plans_on_the_move) << cycle;
     EXPECT_GT(late.sim_time_s, 1.8 * Record(cycle, kEmpty).sim_time_s) << cycle;
     const DriveRecord again =
         Record(cycle, slow + Overrides{kContinuous + "late_plan=stop_and_look"});

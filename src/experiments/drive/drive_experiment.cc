@@ -75,7 +75,9 @@ truth::RecordSchema DriveSchema(const trial::DriveParams& drive) {
 }
 
 DriveExperiment::DriveExperiment(trial::DriveParams params, trial::Watchers watchers)
-    : params_(std::move(params)), watchers_(std::move(watchers)), schema_(DriveSchema(params_)) {}
+    : params_(trial::ShareTables(std::move(params))),
+      watchers_(std::move(watchers)),
+      schema_(DriveSchema(params_)) {}
 
 const truth::RecordSchema& DriveExperiment::schema() const { return schema_; }
 

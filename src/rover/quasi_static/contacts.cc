@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "math/functions.h"
 #include "rover/ground_touches.h"
@@ -87,7 +86,7 @@ void QuasiStaticContacts::Gather(const Vector3& p_WR) {
     const terrain::Rock& rock = terrain_.rocks()[static_cast<std::size_t>(index)];
     rocks_.push_back({index, RockSupport(rock), RockBody(rock), {}, {}});
   }
-  clear_until_m_.assign(rocks_.size() * bodies_.size(), 0.0);
+  clear_until_m_.assign(rocks_.size() * rock_parts_.size(), 0.0);
   for (BodyParts& body : bodies_) body.way_m = 0.0;
   gathered_at_W_ = p_WR;
   gathered_ = true;
@@ -223,27 +222,29 @@ void QuasiStaticContacts::MeetBody(const Linkage& linkage, double reach_m) {
     lowest_m = std::min(lowest_m, linkage.wheel_W(i).z() - hub_radius_m_ - reach_m);
   }
   PlaceBodies(linkage);
-  auto clear_until_m = clear_until_m_.begin();
+  double* until_m = clear_until_m_.data();
   for (const NearRock& rock : rocks_) {
-    if (rock.support.top_W_m() < lowest_m) {
-      clear_until_m += static_cast<std::ptrdiff_t>(bodies_.size());
-      continue;
-    }
+    const bool low = rock.support.top_W_m() < lowest_m;
     for (const BodyParts& body : bodies_) {
-      double& until_m = *clear_until_m++;
-      if (body.way_m + reach_m < until_m) continue;
-      const Vector3 offset_W = rock.support.center_W() - body.center_W;
-      const double near_m = body.radius_m + rock.support.bounding_radius_m();
-      double gap_m = std::numeric_limits<double>::infinity();
-      if (offset_W.squaredNorm() > (near_m + reach_m) * (near_m + reach_m)) {
-        gap_m = offset_W.norm() - near_m;
-      } else {
-        for (std::size_t i = body.first; i < body.last; ++i) {
-          gap_m = std::min(gap_m, MeetPart(linkage, rock_parts_[i], reach_m, rock));
-        }
+      const std::size_t count = body.last - body.first;
+      const auto is_near = [&](double clear_m) { return body.way_m + reach_m >= clear_m; };
+      if (!low && std::any_of(until_m, until_m + count, is_near)) {
+        MeetParts(linkage, body, reach_m, rock, until_m);
       }
-      until_m = body.way_m + gap_m;
+      until_m += count;
     }
+  }
+}
+
+void QuasiStaticContacts::MeetParts(const Linkage& linkage, const BodyParts& body, double reach_m,
+                                    const NearRock& rock, double* until_m) {
+  const double away_m = (rock.support.center_W() - body.center_W).norm() - body.radius_m -
+                        rock.support.bounding_radius_m();
+  for (std::size_t i = body.first; i < body.last; ++i, ++until_m) {
+    if (body.way_m + reach_m < *until_m) continue;
+    const double gap_m =
+        away_m > reach_m ? away_m : MeetPart(linkage, rock_parts_[i], reach_m, rock);
+    *until_m = body.way_m + gap_m;
   }
 }
 

@@ -90,6 +90,9 @@ class QuasiStaticContacts {
   void MeetRock(const Linkage& linkage, std::size_t wheel, double reach_m, NearRock& rock);
   void MeetBody(const Linkage& linkage, double reach_m);
   void PlaceBodies(const Linkage& linkage);
+  // Meets the parts of a body that may be near; until_m are theirs of clear_until_m_.
+  void MeetParts(const Linkage& linkage, const BodyParts& body, double reach_m,
+                 const NearRock& rock, double* until_m);
   // Returns the gap between a part and a rock, or a lower bound of it beyond reach_m.
   double MeetPart(const Linkage& linkage, std::size_t index, double reach_m, const NearRock& rock);
   void MeetCorners(const Linkage& linkage, double reach_m);
@@ -104,7 +107,8 @@ class QuasiStaticContacts {
   std::vector<NearRock> rocks_;
   std::vector<std::size_t> rock_parts_;  // those of parts_ beside the wheels that rocks can touch
   std::vector<BodyParts> bodies_;
-  // By rock, and for each by body: its way_m up to which none of its parts comes near the rock.
+  // By rock, and for each by part of rock_parts_: the way_m of its body up to which it does not come
+  // near the rock.
   std::vector<double> clear_until_m_;
   math::Vector3 gathered_at_W_ = math::Vector3::Zero();
   bool gathered_ = false;

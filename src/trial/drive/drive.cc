@@ -339,6 +339,12 @@ DriveResult RunTwiceAtMost(const DriveParams& params, const Make& make) {
 
 }  // namespace
 
+DriveParams ShareTables(DriveParams drive) {
+  drive.rover.made_wheel = std::make_shared<rover::WheelOnSoil>(
+      rover::MakeWheelOnSoil(drive.rover, drive.terrain.ground.soil));
+  return drive;
+}
+
 DriveResult RunTrial(const DriveParams& params, core::TrialKey key, truth::Trace* trace,
                      const Watchers& watchers) {
   return RunTwiceAtMost(params, [&] {
