@@ -16,6 +16,7 @@ PYBIND11_MODULE(_core, module) {
   python::BindMobility(module);
   python::BindRates(module);
   python::BindWheels(module);
+  python::BindElementary(module);
   python::BindEnvironment(module);
   // While there still is an interpreter for the threads that wait.
   pybind11::module_::import("atexit").attr("register")(module.attr("end_work"));

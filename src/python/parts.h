@@ -26,6 +26,7 @@ void BindPlaces(pybind11::module_& module);       // terrain, images
 void BindMobility(pybind11::module_& module);     // slopes and steps of a rover
 void BindRates(pybind11::module_& module);        // rates, intervals, tests
 void BindWheels(pybind11::module_& module);       // one wheel on soil
+void BindElementary(pybind11::module_& module);   // elementary functions of trials
 void BindEnvironment(pybind11::module_& module);  // drives whose navigator is the caller
 
 // A scenario with the navigators and estimators that Python has added.

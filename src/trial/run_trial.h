@@ -46,8 +46,8 @@ struct DriveResult {
   DriveEnd end;
 };
 
-// Returns the drive with what all of its trials can share, made once: tables that each of them makes
-// for itself otherwise. No result depends on it.
+// Returns the drive with what all of its trials can share, made once: tables that each of them
+// makes for itself otherwise. No result depends on it.
 DriveParams ShareTables(DriveParams drive);
 
 // Drives the trial that `key` names. Must stay: the result is a pure function of (drive, key), bit

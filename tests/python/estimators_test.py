@@ -11,6 +11,7 @@ from pathlib import Path
 import package
 import rockyard as ry
 from package import NOMINAL, PLUGINS, QUICK, SEED, navigator, raises, rows, run
+from rockyard import elementary
 from rockyard.environment import forward
 from rockyard.navigator import parameter
 
@@ -47,35 +48,35 @@ class DeadReckoning(ry.Estimator):
         for turned, ratio, steered, steer in zip(wheel_turn_rad, self.setup.radius_ratio, self.setup.steered, steer_rad):
             if not every and steered:
                 continue
-            total += turned * ratio * (math.cos(steer) if way == "forward" else 1.0)
+            total += turned * ratio * (elementary.cos(steer) if way == "forward" else 1.0)
             count += 1
         return total / count
 
     def propagate(self, duration_s, wheel_turn_rad, steer_rad, turn_rad):
         way_m = self.rolled_rad(wheel_turn_rad, steer_rad) * self.setup.wheel_radius_m * self.setup.distance_scale
         along_rad = self.heading_rad + (0.5 * turn_rad if self.setup.step_heading == "midpoint" else 0.0)
-        self.x_m += way_m * math.cos(along_rad)
-        self.y_m += way_m * math.sin(along_rad)
+        self.x_m += way_m * elementary.cos(along_rad)
+        self.y_m += way_m * elementary.sin(along_rad)
         self.heading_rad = wrapped(self.heading_rad + turn_rad)
         self.odometer_m += abs(way_m)
 
     def feel(self, felt, duration_s):
         turned_rad = wrapped(self.heading_rad - self.felt[2])
         along_rad = self.felt[2] + 0.5 * turned_rad
-        forward_m = ((self.x_m - self.felt[0]) * math.cos(along_rad)
-                     + (self.y_m - self.felt[1]) * math.sin(along_rad))
+        forward_m = ((self.x_m - self.felt[0]) * elementary.cos(along_rad)
+                     + (self.y_m - self.felt[1]) * elementary.sin(along_rad))
         force = felt["specific_force_R"]
         if self.setup.attitude_source == "accelerometers" and force is not None:
             if self.force is None or self.setup.attitude_filter_s <= 0.0:
                 self.force = list(force)
             else:
-                share = -math.expm1(-duration_s / self.setup.attitude_filter_s)
+                share = -elementary.expm1(-duration_s / self.setup.attitude_filter_s)
                 self.force = [old + share * (new - old) for old, new in zip(self.force, force)]
             x, y, z = self.force
-            self.pitch_rad = math.atan2(-x, abs(complex(y, z)))  # hypot of C; Python's own differs in its last bit
-            self.roll_rad = math.atan2(y, z)
+            self.pitch_rad = elementary.atan2(-x, elementary.hypot(y, z))
+            self.roll_rad = elementary.atan2(y, z)
         if self.setup.height == "integrated":
-            self.z_m -= forward_m * math.sin(self.pitch_rad)
+            self.z_m -= forward_m * elementary.sin(self.pitch_rad)
         self.felt = self.pose
 
     def place(self, x_m, y_m, heading_rad, mirrored):
@@ -106,8 +107,8 @@ class WheelOdometry(ry.Estimator):
         self.distance_m += abs(way_m)
         for pose in (self.pose, self.odometry):
             along_rad = pose[2] + 0.5 * turn_rad
-            pose[0] += way_m * math.cos(along_rad)
-            pose[1] += way_m * math.sin(along_rad)
+            pose[0] += way_m * elementary.cos(along_rad)
+            pose[1] += way_m * elementary.sin(along_rad)
             pose[2] = wrapped(pose[2] + turn_rad)
         for row in (0, 1):
             self.covariance[row, row] += self.p.variance_m2_per_m * abs(way_m)

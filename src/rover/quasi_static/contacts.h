@@ -107,8 +107,8 @@ class QuasiStaticContacts {
   std::vector<NearRock> rocks_;
   std::vector<std::size_t> rock_parts_;  // those of parts_ beside the wheels that rocks can touch
   std::vector<BodyParts> bodies_;
-  // By rock, and for each by part of rock_parts_: the way_m of its body up to which it does not come
-  // near the rock.
+  // By rock, and for each by part of rock_parts_: the way_m of its body up to which it does not
+  // come near the rock.
   std::vector<double> clear_until_m_;
   math::Vector3 gathered_at_W_ = math::Vector3::Zero();
   bool gathered_ = false;
