@@ -85,7 +85,8 @@ std::unique_ptr<Peer> MakePeer(Engine engine, const PeerScene& scene) {
 
 std::string Hash(const Peer& peer) {
   core::Hasher hasher;
-  for (const double value : peer.X_WR().matrix().reshaped()) hasher.Real(value);
+  const math::Transform X_WR = peer.X_WR();
+  for (const double value : X_WR.matrix().reshaped()) hasher.Real(value);
   for (const double angle : peer.WheelAngles()) hasher.Real(angle);
   return core::Hex(hasher.value());
 }

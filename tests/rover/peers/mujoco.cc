@@ -12,9 +12,6 @@ namespace {
 
 using math::Vector3;
 
-// Torque per error of a motor's rate: a wheel that needs 1 Nm lags by 0.4 % of 15 cm/s.
-constexpr double kMotorGain_Nms = 100.0;
-
 std::string Text(const Vector3& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
 
 std::string Inertial(const BodyMass& mass) {
@@ -71,7 +68,7 @@ std::string Body(const PeerScene& scene, int body) {
 std::string Model(const PeerScene& scene) {
   std::string text = fmt::format(
       "<mujoco><compiler angle='radian'/><option timestep='{}' iterations='{}' gravity='0 0 {}' "
-      "integrator='implicit' cone='elliptic' impratio='10'/>"
+      "cone='elliptic' impratio='10'/>"
       "<default><geom friction='0.8 0 0'/></default><worldbody>"
       "<geom type='plane' size='0 0 1' contype='1' conaffinity='0'/>",
       scene.step_s, scene.iterations, -scene.params.physics.gravity_m_s2);
@@ -79,15 +76,13 @@ std::string Model(const PeerScene& scene) {
     text += fmt::format("<geom type='sphere' contype='2' conaffinity='0' pos='{}' size='{}'/>",
                         Text(ball.center_W), ball.radius_m);
   }
-  text += Body(scene, kChassis) +
-          "</worldbody><equality><joint joint1='j0' joint2='j1' polycoef='0 -1 0 0 0'/></equality>"
-          "<actuator>";
+  // Wheels follow an angle as a constraint: a velocity servo with the gain of a stiff motor acts
+  // beside the solver, not in it, and blows up.
+  text += Body(scene, kChassis) + "</worldbody><equality>";
   for (int joint = kFirstWheel; joint < kJoints; ++joint) {
-    text += fmt::format(
-        "<velocity joint='j{0}' kv='{1}' forcelimited='true' forcerange='-{2} {2}'/>", joint,
-        kMotorGain_Nms, scene.params.drive.stall_torque_Nm);
+    text += fmt::format("<joint joint1='j{}' polycoef='0 0 0 0 0'/>", joint);
   }
-  return text + "</actuator></mujoco>";
+  return text + "<joint joint1='j0' joint2='j1' polycoef='0 -1 0 0 0'/></equality></mujoco>";
 }
 
 struct ModelDeleter {
@@ -113,7 +108,10 @@ class Mujoco : public Peer {
   }
 
   void Step(double rate_rad_s) override {
-    for (std::size_t i = 0; i < messages::kWheelCount; ++i) data_->ctrl[i] = rate_rad_s;
+    angle_rad_ += rate_rad_s * model_->opt.timestep;
+    for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+      model_->eq_data[mjNEQDATA * i] = angle_rad_;
+    }
     mj_step(model_.get(), data_.get());
   }
 
@@ -138,6 +136,7 @@ class Mujoco : public Peer {
  private:
   std::unique_ptr<mjModel, ModelDeleter> model_;
   std::unique_ptr<mjData, DataDeleter> data_;
+  double angle_rad_ = 0.0;
 };
 
 }  // namespace
