@@ -41,8 +41,7 @@ class Rockyard : public Peer {
     std::vector<terrain::Rock> rocks;
     for (const Ball& ball : scene.balls) {
       const double r = ball.radius_m;
-      rocks.push_back(
-          MakeRock(ball.center_W.x(), ball.center_W.y(), ball.center_W.z(), r, r, r));
+      rocks.push_back(MakeRock(ball.center_W.x(), ball.center_W.y(), ball.center_W.z(), r, r, r));
     }
     const terrain::SoilParams soil = terrain::MakeSoil(terrain::SoilPreset::kHardGround);
     terrain_ = std::make_unique<terrain::Terrain>(terrain::Ground({.soil = soil}, {}),
@@ -63,7 +62,7 @@ class Rockyard : public Peer {
   std::unique_ptr<Rover> rover_;
 };
 
-enum class Engine { kMultibody, kQuasiStatic, kMujoco, kOde, kOdeQuick, kBullet };
+enum class Engine { kMultibody, kQuasiStatic, kMujoco, kMujocoFirm, kOde, kOdeQuick, kBullet };
 
 std::unique_ptr<Peer> MakePeer(Engine engine, const PeerScene& scene) {
   switch (engine) {
@@ -72,7 +71,9 @@ std::unique_ptr<Peer> MakePeer(Engine engine, const PeerScene& scene) {
     case Engine::kQuasiStatic:
       return std::make_unique<Rockyard>(scene, Fidelity::kQuasiStatic);
     case Engine::kMujoco:
-      return MakeMujoco(scene);
+      return MakeMujoco(scene, false);
+    case Engine::kMujocoFirm:
+      return MakeMujoco(scene, true);
     case Engine::kOde:
       return MakeOde(scene, false);
     case Engine::kOdeQuick:
@@ -130,15 +131,16 @@ void Grid(benchmark::internal::Benchmark* b) {
   }
   b->Unit(benchmark::kMillisecond);
 }
-#define PEER(engine, grid)                                                        \
+#define PEER(engine, grid)                                                           \
   BENCHMARK_CAPTURE(Straight, engine##Level, Engine::k##engine, false)->Apply(grid); \
   BENCHMARK_CAPTURE(Straight, engine##Rocks, Engine::k##engine, true)->Apply(grid)
-PEER(Multibody, (Grid<10, 40>));
+PEER(Multibody, (Grid<5, 10, 40>));
 PEER(QuasiStatic, (Grid<10>));
 PEER(Mujoco, (Grid<5, 20, 100>));
+PEER(MujocoFirm, (Grid<5, 20, 100>));
 PEER(Ode, (Grid<0>));
-PEER(OdeQuick, (Grid<20, 50, 200>));
-PEER(Bullet, (Grid<10, 50, 200>));
+PEER(OdeQuick, (Grid<20, 50, 100, 200>));
+PEER(Bullet, (Grid<10, 50, 100, 200>));
 #undef PEER
 
 }  // namespace

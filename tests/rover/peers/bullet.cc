@@ -132,9 +132,9 @@ class BulletPeer : public Peer {
   static btTransform Placed(const Part& part, const Vector3& com_B) {
     const Vector3 along = part.b_B - part.a_B;
     const bool capsule = part.core == Core::kSegment && part.a_B != part.b_B;
-    const Eigen::Quaterniond q =
-        capsule ? Eigen::Quaterniond::FromTwoVectors(Vector3::UnitY(), along)
-                : Eigen::Quaterniond::Identity();
+    const Eigen::Quaterniond q = capsule
+                                     ? Eigen::Quaterniond::FromTwoVectors(Vector3::UnitY(), along)
+                                     : Eigen::Quaterniond::Identity();
     const Vector3 at_B = capsule ? Vector3(0.5 * (part.a_B + part.b_B)) : part.a_B;
     return btTransform(btQuaternion(q.x(), q.y(), q.z(), q.w()), ToBullet(at_B - com_B));
   }

@@ -65,13 +65,14 @@ std::string Body(const PeerScene& scene, int body) {
   return text + "</body>";
 }
 
-std::string Model(const PeerScene& scene) {
+std::string Model(const PeerScene& scene, bool firm) {
   std::string text = fmt::format(
       "<mujoco><compiler angle='radian'/><option timestep='{}' iterations='{}' gravity='0 0 {}' "
-      "cone='elliptic' impratio='10'/>"
+      "cone='{}' impratio='{}'/>"
       "<default><geom friction='0.8 0 0'/></default><worldbody>"
       "<geom type='plane' size='0 0 1' contype='1' conaffinity='0'/>",
-      scene.step_s, scene.iterations, -scene.params.physics.gravity_m_s2);
+      scene.step_s, scene.iterations, -scene.params.physics.gravity_m_s2,
+      firm ? "elliptic" : "pyramidal", firm ? 10 : 1);
   for (const Ball& ball : scene.balls) {
     text += fmt::format("<geom type='sphere' contype='2' conaffinity='0' pos='{}' size='{}'/>",
                         Text(ball.center_W), ball.radius_m);
@@ -94,8 +95,8 @@ struct DataDeleter {
 
 class Mujoco : public Peer {
  public:
-  explicit Mujoco(const PeerScene& scene) {
-    const std::string text = Model(scene);
+  Mujoco(const PeerScene& scene, bool firm) {
+    const std::string text = Model(scene, firm);
     const auto files = std::make_unique<mjVFS>();
     mj_defaultVFS(files.get());
     mj_makeEmptyFileVFS(files.get(), "rover.xml", static_cast<int>(text.size()));
@@ -141,6 +142,8 @@ class Mujoco : public Peer {
 
 }  // namespace
 
-std::unique_ptr<Peer> MakeMujoco(const PeerScene& scene) { return std::make_unique<Mujoco>(scene); }
+std::unique_ptr<Peer> MakeMujoco(const PeerScene& scene, bool firm) {
+  return std::make_unique<Mujoco>(scene, firm);
+}
 
 }  // namespace rockyard::rover

@@ -1,5 +1,6 @@
 #include <ode/ode.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "peer.h"
@@ -108,9 +109,9 @@ class Ode : public Peer {
     const PeerLink& link = scene_.links[i];
     bodies_[i] = MakeBody(link.mass, link.origin_R);
     hinges_[i] = dJointCreateHinge(world_, nullptr);
-    dJointAttach(hinges_[i], bodies_[i],
-                 link.parent == kChassis ? chassis_
-                                         : bodies_[static_cast<std::size_t>(link.parent)]);
+    dJointAttach(
+        hinges_[i], bodies_[i],
+        link.parent == kChassis ? chassis_ : bodies_[static_cast<std::size_t>(link.parent)]);
     dJointSetHingeAnchor(hinges_[i], link.origin_R.x(), link.origin_R.y(), link.origin_R.z());
     dJointSetHingeAxis(hinges_[i], 0, 1, 0);
     if (i < kFirstWheel) return;
@@ -152,10 +153,10 @@ class Ode : public Peer {
   void AddDifferential() {
     const Vector3& pivot = scene_.links[0].origin_R;
     const double z = pivot.z() + kLever_m;
-    const dBodyID beam = MakeBody({.mass_kg = kBeam_kg,
-                                   .inertia_kg_m2 = kBeam_kg / 3.0 * pivot.y() * pivot.y() *
-                                                    Vector3(1.0, 0.1, 1.0)},
-                                  Vector3(pivot.x() - kRod_m, 0.0, z));
+    const dBodyID beam =
+        MakeBody({.mass_kg = kBeam_kg,
+                  .inertia_kg_m2 = kBeam_kg / 3.0 * pivot.y() * pivot.y() * Vector3(1.0, 0.1, 1.0)},
+                 Vector3(pivot.x() - kRod_m, 0.0, z));
     const dJointID hinge = dJointCreateHinge(world_, nullptr);
     dJointAttach(hinge, beam, chassis_);
     dJointSetHingeAnchor(hinge, pivot.x() - kRod_m, 0.0, z);
@@ -175,14 +176,20 @@ class Ode : public Peer {
     const double k = scene_.params.contact.stiffness_N_m;
     const double d = scene_.params.contact.damping_Ns_m;
     const double h = scene_.step_s;
+    // Friction is a pyramid: its edges lie along and across the wheel.
+    const dReal* R = dBodyGetRotation(dGeomGetBody(a));
+    const Vector3 axle_W(R[1], R[5], R[9]);
     for (int i = 0; i < count; ++i) {
-      dSurfaceParameters& surface = touch[static_cast<std::size_t>(i)].surface;
-      surface.mode = dContactApprox1 | dContactSoftERP | dContactSoftCFM;
-      surface.mu = scene_.params.contact.wheel_rock_friction;
+      dContact& contact = touch[static_cast<std::size_t>(i)];
+      const dReal* n = contact.geom.normal;
+      const Vector3 ahead_W = axle_W.cross(Vector3(n[0], n[1], n[2])).normalized();
+      std::copy(ahead_W.begin(), ahead_W.end(), contact.fdir1);
+      dSurfaceParameters& surface = contact.surface;
+      surface.mode = dContactApprox1 | dContactFDir1 | dContactSoftERP | dContactSoftCFM;
+      surface.mu = surface.mu2 = scene_.params.contact.wheel_rock_friction;
       surface.soft_erp = h * k / (h * k + d);
       surface.soft_cfm = 1.0 / (h * k + d);
-      const dJointID joint =
-          dJointCreateContact(world_, contacts_, &touch[static_cast<std::size_t>(i)]);
+      const dJointID joint = dJointCreateContact(world_, contacts_, &contact);
       dJointAttach(joint, dGeomGetBody(a), dGeomGetBody(b));
     }
   }

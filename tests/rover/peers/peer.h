@@ -74,7 +74,8 @@ class Peer {
   virtual messages::PerWheel<double> WheelAngles() const = 0;
 };
 
-std::unique_ptr<Peer> MakeMujoco(const PeerScene& scene);
+// `firm`: elliptic cones and friction ten times as stiff as the normal; otherwise its defaults.
+std::unique_ptr<Peer> MakeMujoco(const PeerScene& scene, bool firm);
 // `quick`: by sweeps, otherwise by its direct solver, which has no iterations.
 std::unique_ptr<Peer> MakeOde(const PeerScene& scene, bool quick);
 std::unique_ptr<Peer> MakeBullet(const PeerScene& scene);
