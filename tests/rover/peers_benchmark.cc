@@ -103,7 +103,7 @@ void Straight(benchmark::State& bench, Engine engine, bool rocks) {
   for (auto _ : bench) {
     bench.PauseTiming();
     auto peer = MakePeer(engine, scene);
-    for (int i = 0; i < static_cast<int>(kSettle_s / step_s); ++i) peer->Step(0.0);
+    for (int i = 0; i < std::lround(kSettle_s / step_s); ++i) peer->Step(0.0);
     const double start_m = peer->X_WR().translation().x();
     tilt_rad = 0.0;
     bench.ResumeTiming();

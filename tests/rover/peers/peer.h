@@ -74,7 +74,7 @@ class Peer {
   virtual messages::PerWheel<double> WheelAngles() const = 0;
 };
 
-// `firm`: elliptic cones and friction ten times as stiff as the normal; otherwise its defaults.
+// `firm`: elliptic cones, and friction of ten times the normal's impedance; otherwise its defaults.
 std::unique_ptr<Peer> MakeMujoco(const PeerScene& scene, bool firm);
 // `quick`: by sweeps, otherwise by its direct solver, which has no iterations.
 std::unique_ptr<Peer> MakeOde(const PeerScene& scene, bool quick);
