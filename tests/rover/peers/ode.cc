@@ -31,6 +31,7 @@ class Ode : public Peer {
  public:
   Ode(const PeerScene& scene, bool quick) : scene_(scene), quick_(quick) {
     InitOnce();
+    dRandSetSeed(0);  // it sweeps the rows in random order
     world_ = dWorldCreate();
     rover_ = dSimpleSpaceCreate(nullptr);
     still_ = dSimpleSpaceCreate(nullptr);
