@@ -5,6 +5,9 @@ takes these instead drives the same records everywhere. All take floats or array
 angles are in radians. Nothing is raised: what has no answer is not a number.
 """
 
-from ._core import atan2, cos, exp, expm1, hypot, log, sin, tan
+from . import _core
 
 __all__ = ["atan2", "cos", "exp", "expm1", "hypot", "log", "sin", "tan"]
+
+sin, cos, tan, atan2 = _core.sin, _core.cos, _core.tan, _core.atan2
+exp, expm1, log, hypot = _core.exp, _core.expm1, _core.log, _core.hypot
