@@ -35,7 +35,8 @@ inline constexpr std::array<DoubleDouble, kSixteenths + 1> kArcs = MakeArcs();
 /// the last bits of y are lost.
 inline DoubleDouble ArcParts(double y, double x) {
   const double ratio = y / x;
-  const auto k = static_cast<std::size_t>(ratio * kSixteenths + 0.5);
+  const double nearest = ratio * kSixteenths + 0.5;
+  const auto k = static_cast<std::size_t>(nearest);
   double t = ratio;
   if (k > 0) {
     /// x c is exact in two parts, so that a difference that cancels keeps its bits.

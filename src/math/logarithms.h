@@ -47,7 +47,8 @@ constexpr std::array<Centre, kSteps + 1> MakeCentres() {
   std::array<Centre, kSteps + 1> centres{};
   for (std::size_t j = 0; j <= kSteps; ++j) {
     const double m = (j < kFirstHalved ? 1.0 : 0.5) * (1.0 + static_cast<double>(j) / kSteps);
-    const double c = static_cast<double>(static_cast<int>(512.0 / m + 0.5)) / 512.0;
+    const double nearest = 512.0 / m + 0.5;
+    const double c = static_cast<double>(static_cast<int>(nearest)) / 512.0;
     const DoubleDouble log = LogOfCentre(c);
     constexpr double kRound42 = 0x1.8p10;  ///< its last bit is 2^-42
     const double high = (kRound42 - log.high) - kRound42;

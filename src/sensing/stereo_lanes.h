@@ -10,12 +10,12 @@ namespace rockyard::sensing {
 // The cut of an image row through a rock, see RowCut: one over the depth at column c is
 //   (approach_0 + approach_1 c + sqrt((quadratic c + 2 linear) c + constant)) inverse_outside_1.
 struct RockRow {
-  double quadratic;
-  double linear;
-  double constant;
-  double approach_0;
-  double approach_1;
-  double inverse_outside_1;
+  double quadratic = 0.0;
+  double linear = 0.0;
+  double constant = 0.0;
+  double approach_0 = 0.0;
+  double approach_1 = 0.0;
+  double inverse_outside_1 = 0.0;
 };
 
 // Raises the pixels [first, first + count) of a row to the rock's, all of whose rays must meet it

@@ -154,7 +154,7 @@ void ConstraintSolver::StartMotors(const JointSpaceInertia& inertia,
 }
 
 void ConstraintSolver::MarkActive(const Multibody& body, ContactFinder& finder) const {
-  const DofVector velocity = body.Velocity();
+  const DofVector& velocity = body.Velocity();
   DofVector J;
   for (Contact& contact : finder.contacts()) {
     contact.active = contact.gap_m < kActiveGap_m;

@@ -36,7 +36,7 @@ class ConstraintSolver {
     const JointSpaceInertia& inertia;
     const DofVector& before;  // velocities before gravity accelerated the body
     const MotorRates& rates;  // told to the wheels' motors
-    double duration_s;
+    double duration_s = 0.0;
     int patience = 1;  // how many times as many sweeps as usual it may take
   };
 

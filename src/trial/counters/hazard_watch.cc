@@ -29,14 +29,14 @@ double FarthestCorner(const Zone& zone) {
 // In coordinates in which the rock's outline is the unit circle the zone is a parallelogram:
 // outline and zone meet where the origin is inside the parallelogram or within 1 of an edge of it.
 bool Reaches(const terrain::Rock& rock, const Zone& zone, const math::Transform& X_WR) {
-  const auto [s, c] = math::SinCos(rock.yaw_rad);
+  const math::SineCosine yaw = math::SinCos(rock.yaw_rad);
   const math::Pose2 pose = math::ToPose2(X_WR);
-  const auto [forward_y, forward_x] = math::SinCos(pose.heading_rad);
+  const math::SineCosine heading = math::SinCos(pose.heading_rad);
   const auto corner = [&](double x_m, double y_m) {
-    const double dx = pose.x_m + forward_x * x_m - forward_y * y_m - rock.center_W.x();
-    const double dy = pose.y_m + forward_y * x_m + forward_x * y_m - rock.center_W.y();
-    return Point((c * dx + s * dy) / rock.semi_axes_m.x(),
-                 (c * dy - s * dx) / rock.semi_axes_m.y());
+    const double dx = pose.x_m + heading.cos * x_m - heading.sin * y_m - rock.center_W.x();
+    const double dy = pose.y_m + heading.sin * x_m + heading.cos * y_m - rock.center_W.y();
+    return Point((yaw.cos * dx + yaw.sin * dy) / rock.semi_axes_m.x(),
+                 (yaw.cos * dy - yaw.sin * dx) / rock.semi_axes_m.y());
   };
   const std::array corners{corner(zone.x_low_m, zone.y_low_m), corner(zone.x_high_m, zone.y_low_m),
                            corner(zone.x_high_m, zone.y_high_m),
