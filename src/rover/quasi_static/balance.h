@@ -57,8 +57,7 @@ class QuasiStaticBalance {
 
   // Starts from `rates`, for example those of the last step, and leaves the solution there; it
   // leaves loads and sliding speeds in the contacts, and motor torques for MotorTorque_Nm. Returns
-  // the number of iterations, which cost 0.5 us each; kMaxIterations means that the tolerance was
-  // not met.
+  // the number of iterations; kMaxIterations means that the tolerance was not met.
   int Solve(const Linkage& linkage, const Posture& posture, const Drive& drive,
             std::vector<RestingContact>& contacts, LinkageVector& rates);
 
