@@ -18,6 +18,7 @@ HEAVY = {
     "GDAL": (r"(gdal|cpl_|ogr)", r"GDAL::"),
     "libzip": (r"zip\.h", r"LIBZIP"),
     "zlib": (r"zlib\.h", r"ZLIB::"),
+    "OpenSSL": (r"openssl/", r"OpenSSL::"),
     "Highway": (r"hwy/", r"HWY|hwy"),
     "Boost.Math": (r"boost/(?!context/)", r"Boost::(?!context)"),
     "Boost.Context": (r"boost/context/", r"Boost::context"),

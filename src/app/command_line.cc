@@ -186,6 +186,7 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   AddMergeCommand(app, exit_code);
   AddRoverCommand(app);
   AddMobilityCommand(app, exit_code);
+  AddBenchCommand(app, exit_code);
   AddTerrainCommand(app);
   AddRenderCommand(app, exit_code);
   AddStereoCommand(app);

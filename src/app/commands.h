@@ -34,6 +34,7 @@ void AddStereoCommand(CLI::App& app);
 void AddVoCommand(CLI::App& app, ExitCode& exit_code);
 void AddCylinderCommand(CLI::App& app, ExitCode& exit_code);
 void AddMobilityCommand(CLI::App& app, ExitCode& exit_code);
+void AddBenchCommand(CLI::App& app, ExitCode& exit_code);
 void AddTerrainCommand(CLI::App& app);
 void AddTraceCommand(CLI::App& app, ExitCode& exit_code);
 void AddValidateCommand(CLI::App& app);

@@ -97,8 +97,11 @@ class Campaign {
         journal_(contact.journal) {}
 
   Outcome Run(CampaignProcess& process) const {
-    const CampaignPlan plan = planner_();
+    CampaignPlan plan = planner_();
     CheckPlan(request_, plan);
+    for (std::size_t i = 0; request_.prepare && i < plan.cells.size(); ++i) {
+      request_.prepare(i, plan.cells[i]);
+    }
     PlannedWork work(plan);
     CheckColumns(plan, work);
     OpenRequest opening = OpeningOf(request_, plan);

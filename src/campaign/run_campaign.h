@@ -2,6 +2,7 @@
 // run.h and the dry runs are made of it; the command line fills the request.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -42,6 +43,9 @@ struct CampaignRequest {
   TraceOptions traces = {};  // written once all trials are stored
   // The values that files leave out, and the navigators and estimators that they may name.
   scenario::Scenario defaults = {};
+  // Is given each cell before its trials run, with its number, in every process that runs some.
+  // Must change no record: benchmarks record what navigators do.
+  std::function<void(std::size_t index, CampaignCell& cell)> prepare = {};
   // What a program that links rockyard is known by, beside rockyard's own build; "" of the command.
   std::string program = {};
 

@@ -149,6 +149,13 @@ class KindSet {
     kinds_.push_back(std::move(kind));
   }
 
+  /// Requires a kind of the name of the chosen one.
+  void ReplaceChosen(std::unique_ptr<Base> kind) {
+    EXPECT(kind->name() == chosen().name());
+    names_.at(static_cast<std::size_t>(chosen_)) = kind->name();
+    kinds_.at(static_cast<std::size_t>(chosen_)) = std::move(kind);
+  }
+
  private:
   template <typename Wanted, typename Set>
   static Wanted& Find(Set& set) {

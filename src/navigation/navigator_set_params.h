@@ -110,6 +110,12 @@ class NavigatorSet : public core::KindSet<NavigatorKind> {
   /// Adds a kind; throws as above.
   void Add(std::unique_ptr<NavigatorKind> kind) { AddKind(std::move(kind)); }
 
+  /// Puts what `wrap` returns in the place of the kind that is chosen. It must have the same name.
+  void WrapChosen(
+      const std::function<std::unique_ptr<NavigatorKind>(std::unique_ptr<NavigatorKind>)>& wrap) {
+    ReplaceChosen(wrap(chosen().Clone()));
+  }
+
  private:
   template <typename Params>
   struct KindOf final : core::KindWithParams<NavigatorKind, Params> {

@@ -1,0 +1,182 @@
+#include "campaign/bench/bench.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "campaign/bench/bench_chain.h"
+#include "campaign/run_source.h"
+#include "campaign/scenario_names.h"
+#include "core/archive.h"
+#include "core/digest.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/json_text.h"
+#include "core/provenance.h"
+#include "navigation/action_log.h"
+#include "report/atomic_file.h"
+#include "report/result_table.h"
+#include "scenario/sweep.h"
+
+namespace rockyard::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+using core::JsonValue;
+
+// Writes a log where a run keeps it. A log that cannot be written is missing when the run is
+// closed, which says so: nothing can be thrown where a navigator ends.
+void WriteActions(const fs::path& file, const std::string& log) {
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error);
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  stream.write(log.data(), static_cast<std::streamsize>(log.size()));
+  stream.close();
+  if (!stream) fs::remove(file, error);
+}
+
+// Returns the campaign of a request, whose navigators are recorded below `folder`.
+CampaignRequest Recording(const BenchRequest& request, const BenchEntry& entry,
+                          const fs::path& folder, std::optional<std::int64_t> seed) {
+  CampaignRequest campaign = request.campaign;
+  campaign.folder = folder;
+  campaign.overrides = entry.settings;
+  campaign.seed = seed;
+  campaign.prepare = [folder](std::size_t index, CampaignCell& cell) {
+    const auto write = [folder, index, name = cell.name](std::uint64_t random_seed,
+                                                         const std::string& log) {
+      WriteActions(folder / ActionFile(index, name, random_seed), log);
+    };
+    cell.scenario.drive.navigation.navigators.WrapChosen(
+        [&](std::unique_ptr<navigation::NavigatorKind> kind) {
+          return navigation::Recorded(std::move(kind), write);
+        });
+  };
+  return campaign;
+}
+
+// Throws where the actions of a drive are not there that its navigator did not break off.
+void RequireActions(const fs::path& folder, const batch::ResultStore& store) {
+  for (std::size_t cell = 0; cell < store.identity().cells.size(); ++cell) {
+    const batch::CellIdentity& identity = store.identity().cells[cell];
+    for (const truth::Record& record : store.Load(static_cast<int>(cell))) {
+      if (IsFault(record) || IsNavigatorCrash(record)) continue;
+      if (!ReadActions(folder, cell, identity, record.trial).empty()) continue;
+      throw core::MachineError(
+          folder.string(),
+          fmt::format("the actions of trial {} of {} were not written", record.trial,
+                      identity.name),
+          "check the free space and the rights of the folder, then run it again with --force");
+    }
+  }
+}
+
+void WriteBenchFiles(const BenchEntry& entry, const std::string& suite_digest,
+                     const std::string& beacon, const fs::path& folder) {
+  const batch::ResultStore store = batch::ResultStore::Read(folder);
+  RequireActions(folder, store);
+  const auto seed = static_cast<std::int64_t>(store.identity().cells.front().seed);
+  const std::string start =
+      core::Sha256(fmt::format("rockyard bench {}\n{}\n{}\n{}\n{}\n", kBenchVersion, entry.digest,
+                               suite_digest, seed, fmt::join(store.Builds(), "\n")));
+  const std::vector<ChainLink> chain = MakeChain(folder, store, start);
+  report::WriteFileAtomically(folder / kChainFile, ChainCsv(chain));
+  report::WriteFileAtomically(
+      folder / kBenchFile,
+      core::DumpJson(report::ObjectTree(
+          "bench_version", kBenchVersion, "entry", entry.document, "entry_digest", entry.digest,
+          "suite", store.identity().name, "suite_digest", suite_digest, "beacon", beacon, "seed",
+          seed, "layouts", store.planned(), "program", core::VersionLine(), "start", start, "head",
+          chain.back().digest)));
+}
+
+const std::string& TextIn(const JsonValue& document, const char* key, const std::string& file) {
+  const JsonValue* found = document.Find(key);
+  if (found == nullptr || !found->Is(JsonValue::Type::kText)) {
+    throw core::UserError(file, fmt::format("has no text \"{}\"", key),
+                          "take the file as `rockyard bench run` wrote it");
+  }
+  return found->text();
+}
+
+std::int64_t IntegerIn(const JsonValue& document, const char* key, const std::string& file) {
+  const JsonValue* found = document.Find(key);
+  if (found == nullptr || !found->Is(JsonValue::Type::kInteger)) {
+    throw core::UserError(file, fmt::format("has no integer \"{}\"", key),
+                          "take the file as `rockyard bench run` wrote it");
+  }
+  return found->integer();
+}
+
+}  // namespace
+
+std::int64_t BeaconSeed(std::string_view suite_digest, std::string_view beacon) {
+  const std::string digest =
+      core::Sha256(fmt::format("rockyard bench {}\n{}\n{}\n", kBenchVersion, suite_digest, beacon));
+  return static_cast<std::int64_t>(std::stoull(digest.substr(0, 16), nullptr, 16) >> 2);
+}
+
+WorkResult RunBench(const BenchRequest& request, const RunObserver& observer, const Stop& stop) {
+  std::optional<BenchEntry> entry;
+  SweepRequest sweep;
+  std::string suite_digest;
+  WorkResult result = Recorded(observer, [&](Journal&) {
+    entry = ReadEntry(request.entry);
+    sweep.file = ScenarioFile(request.suite, Wanted::kSweep);
+    const scenario::Sweep suite = scenario::LoadSweep(sweep.file, {.sealed = true});
+    suite_digest = core::Sha256(suite.document);
+    if (!suite.common_random_numbers) {
+      throw core::UserError(sweep.file.string(), "has no common_random_numbers",
+                            "take a suite of the benchmark, such as bench/points");
+    }
+    std::optional<std::int64_t> seed;
+    if (!request.beacon.empty()) seed = BeaconSeed(suite_digest, request.beacon);
+    const fs::path folder =
+        !request.campaign.folder.empty()
+            ? request.campaign.folder
+            : DefaultFolder(fmt::format("bench-{}-{}", suite.name, entry->manifest.name),
+                            seed.value_or(static_cast<std::int64_t>(suite.seed)));
+    sweep.campaign = Recording(request, *entry, fs::absolute(folder), seed);
+    return Outcome::kDone;
+  });
+  if (result.outcome != Outcome::kDone) return result;
+  result = RunSweep(sweep, observer, stop);
+  if (result.outcome != Outcome::kDone) return result;
+  const WorkResult closed = Recorded(observer, [&](Journal&) {
+    WriteBenchFiles(*entry, suite_digest, request.beacon, sweep.campaign.folder);
+    return Outcome::kDone;
+  });
+  result.outcome = closed.outcome;
+  result.problems.insert(result.problems.end(), closed.problems.begin(), closed.problems.end());
+  return result;
+}
+
+BenchRun ReadBenchRun(const fs::path& folder) {
+  const std::string file = (folder / kBenchFile).string();
+  constexpr std::size_t kMaxBytes = 1 << 24;
+  BenchRun run;
+  run.folder = folder;
+  run.document = core::ParseJson(
+      core::ReadTextFile(file, kMaxBytes, "bench.json of a finished bench run"), file);
+  const std::int64_t version = IntegerIn(run.document, "bench_version", file);
+  if (version != kBenchVersion) {
+    throw core::UserError(file, fmt::format("is of version {} of the benchmark", version),
+                          fmt::format("this program knows version {}", kBenchVersion));
+  }
+  if (const JsonValue* entry = run.document.Find("entry")) {
+    core::ReadParams(*entry, run.manifest, {"set"});
+  }
+  run.entry_digest = TextIn(run.document, "entry_digest", file);
+  run.suite = TextIn(run.document, "suite", file);
+  run.suite_digest = TextIn(run.document, "suite_digest", file);
+  run.beacon = TextIn(run.document, "beacon", file);
+  run.start = TextIn(run.document, "start", file);
+  run.head = TextIn(run.document, "head", file);
+  run.seed = IntegerIn(run.document, "seed", file);
+  run.layouts = IntegerIn(run.document, "layouts", file);
+  return run;
+}
+
+}  // namespace rockyard::campaign

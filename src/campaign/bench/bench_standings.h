@@ -1,0 +1,91 @@
+// `rockyard bench report`: entries of one suite beside each other, by the true arrivals of their
+// drives. The estimand is fixed: groups of cells (what stands before '/' in their names) are
+// weighted alike, and so are the cells of a group. Layouts are the independent units: a layout's
+// score is the weighted share of cells in which it ends truly at its goal, and intervals are
+// Student's over layouts, also of differences between entries, which have met the same layouts.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "campaign/bench/bench.h"
+#include "core/json_value.h"
+#include "report/result_table.h"
+#include "statistics/proportions.h"
+
+namespace rockyard::campaign {
+
+// Of the rules: entries whose scores differ by less are tied, and time and energy part them.
+inline constexpr double kTieMargin = 0.02;
+// A score against the baseline's has to be seen with this chance (confidence 95 %).
+inline constexpr double kToldWith = 0.8;
+
+// A number with its interval, 95 %.
+struct Estimated {
+  double value = 0.0;
+  statistics::Interval interval{};
+};
+
+// What is known of an entry beside the baseline.
+enum class Verdict { kBetter, kWorse, kTied, kUnknown };
+
+// Of one entry in one group, or in one cell.
+struct ScoredPart {
+  std::string name;
+  double arrived = 0.0;   // weighted share of drives that end truly at the goal
+  double baseline = 0.0;  // of the baseline there
+  Estimated difference;
+};
+
+struct Standing {
+  BenchRun run;
+  Estimated score;
+  Estimated difference;  // to the baseline; 0 of the baseline itself
+  Verdict verdict = Verdict::kTied;
+  double told = 0.0;  // the smallest difference to the baseline that would be told (kToldWith)
+  // Ranks that are possible, 1 the best: all pairs of entries at once, 95 % (Bonferroni).
+  int best_rank = 1;
+  int worst_rank = 1;
+  // Weighted shares of drives. Unsafe: tipped over, or ended with the body on a rock.
+  double unsafe = 0.0;
+  Estimated unsafe_difference;  // to the baseline
+  bool passes_gate = true;  // false: surely more unsafe drives than the baseline's, by kTieMargin
+  double scraped = 0.0;     // body contact with a rock
+  double declared = 0.0;    // believed to be at the goal, truly or not
+  // Of drives in which both arrived truly: sums over those of the baseline.
+  double way_ratio = 1.0;
+  double time_ratio = 1.0;
+  double energy_ratio = 1.0;
+  std::vector<ScoredPart> groups;
+  std::vector<ScoredPart> cells;
+};
+
+struct Standings {
+  std::string suite;
+  std::int64_t layouts = 0;
+  std::vector<Standing> entries;  // the best score first
+  std::string baseline;           // its name
+
+  report::ResultTable Table() const;   // a row for each entry
+  report::ResultTable Groups() const;  // a row for each entry and group
+  report::ResultTable Cells() const;   // a row for each entry and cell
+  std::string Markdown() const;
+};
+
+// Returns the standings. `folders`: runs of entries; the first is the baseline. Throws
+// core::UserError where they are not of the same suite, layouts, track, computing and seed, or two
+// have one name.
+Standings MakeStandings(const std::vector<std::filesystem::path>& folders);
+
+}  // namespace rockyard::campaign
+
+namespace rockyard::core {
+
+template <>
+struct EnumNames<campaign::Verdict> {
+  static constexpr std::array<std::string_view, 4> kNames{"better", "worse", "tied", "unknown"};
+};
+
+}  // namespace rockyard::core

@@ -1,0 +1,122 @@
+#include "campaign/bench/entry.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "core/archive.h"
+#include "core/digest.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/json_text.h"
+#include "plugin/plugin_use.h"
+
+namespace rockyard::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+using core::Setting;
+
+// Of all files of an entry; what is larger is no code of a navigator.
+constexpr std::size_t kMaxEntryBytes = std::size_t{256} << 20;
+
+// What an entry may set beside the parameters of its navigator: what a rover does that notices that
+// it is stuck or slips.
+constexpr std::array<std::string_view, 2> kReactions{"on_board_stuck", "on_slip"};
+
+// Returns the digest of all files of the folder but hidden ones, by name and bytes.
+std::string DigestOf(const fs::path& folder) {
+  std::map<std::string, fs::path> files;
+  for (auto it = fs::recursive_directory_iterator(folder); it != fs::end(it); ++it) {
+    const std::string name = it->path().filename().string();
+    const bool skipped = name.starts_with('.') || name == "__pycache__";
+    if (skipped && it->is_directory()) it.disable_recursion_pending();
+    if (skipped || !it->is_regular_file()) continue;
+    files.emplace(it->path().lexically_relative(folder).generic_string(), it->path());
+  }
+  std::string all;
+  std::size_t room = kMaxEntryBytes;
+  for (const auto& [name, path] : files) {
+    const std::string bytes = core::ReadWholeFile(path, room, "a file of an entry");
+    room -= bytes.size();
+    all += fmt::format("{}\n{}\n", core::Sha256(bytes), name);
+  }
+  return core::Sha256(all);
+}
+
+void CheckSetting(const EntryParams& manifest, const std::string& path,
+                  std::vector<core::Problem>& problems) {
+  const auto below = [&](std::string_view group) {
+    return path.starts_with(fmt::format("navigation.{}.", group));
+  };
+  if (below(manifest.navigator) || std::ranges::any_of(kReactions, below)) return;
+  problems.push_back({"set." + path, "is not the entry's to set",
+                      fmt::format("set navigation.{}.*, navigation.on_board_stuck.* or "
+                                  "navigation.on_slip.*: all else is the suite's",
+                                  manifest.navigator)});
+}
+
+}  // namespace
+
+void EntryParams::Visit(core::FieldVisitor& v) {
+  v.Text("name", name, Setting("of the entry in tables"));
+  v.Choice("track", track,
+           Setting("what it may see: points (of looks), map (of the site), images"));
+  v.Choice("computing", computing,
+           Setting("whether its decisions take the time of the modelled computer (budgeted)"));
+  v.Text("navigator", navigator, Setting("the navigator's name in a scenario"));
+  v.Text("plugin", plugin, Setting("the file of its library in the folder; empty: no library"));
+  v.Text("process", process, Setting("the command of its process; empty: none"));
+  v.Text("about", about, Setting("a sentence for readers"));
+  v.Text("authors", authors, Setting("who answers for it"));
+  v.Require("name", !name.empty(), "is missing", "give the entry a name of a word or two");
+  v.Require("navigator", !navigator.empty(), "is missing",
+            "name the navigator as a scenario would in navigation.navigator");
+  v.Require("plugin", plugin.empty() || process.empty(), "stands beside a process",
+            "leave one of the two out");
+}
+
+BenchEntry ReadEntry(const fs::path& path) {
+  const fs::path folder =
+      fs::absolute(path.filename() == kEntryFile ? path.parent_path() : path).lexically_normal();
+  const std::string file = (folder / kEntryFile).string();
+  BenchEntry entry{.folder = folder, .manifest = {}, .document = {}, .settings = {}, .digest = {}};
+  constexpr std::size_t kMaxManifest = 1 << 20;
+  entry.document =
+      core::ParseJson(core::ReadTextFile(file, kMaxManifest, "the manifest of an entry"), file);
+  core::ReadParams(entry.document, entry.manifest, {"set"});
+  const EntryParams& manifest = entry.manifest;
+  std::vector<core::Problem> problems;
+  core::JsonValue::List plugins;
+  if (!manifest.plugin.empty()) {
+    const fs::path library = (folder / manifest.plugin).lexically_normal();
+    if (library.lexically_relative(folder).generic_string().starts_with("..")) {
+      problems.push_back({"plugin", "is outside of the entry's folder", "put the library there"});
+    }
+    plugins.push_back(core::JsonValue::Object({{"library", core::JsonValue(manifest.plugin)}}));
+  }
+  if (!manifest.process.empty()) {
+    plugins.push_back(core::JsonValue::Object({{"process", core::JsonValue(manifest.process)}}));
+  }
+  if (!plugins.empty()) {
+    entry.settings.push_back(fmt::format(
+        "{}={}", plugin::kPluginsKey,
+        core::CompactJson(plugin::Anchored(core::JsonValue(std::move(plugins)), folder))));
+  }
+  entry.settings.push_back("navigation.navigator=" + manifest.navigator);
+  if (const core::JsonValue* set = entry.document.Find("set")) {
+    if (!set->Is(core::JsonValue::Type::kObject)) {
+      throw core::UserError("set", "is no object", "give it as {\"PATH\": VALUE}");
+    }
+    for (const core::JsonMember& member : set->members()) {
+      CheckSetting(manifest, member.key, problems);
+      entry.settings.push_back(member.key + "=" + core::CompactJson(member.value));
+    }
+  }
+  if (!problems.empty()) throw core::UserError(std::move(problems));
+  entry.digest = DigestOf(folder);
+  return entry;
+}
+
+}  // namespace rockyard::campaign

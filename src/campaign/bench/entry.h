@@ -1,0 +1,64 @@
+// An entry of the benchmark: a folder with a manifest (entry.json), and all that its navigator
+// needs. docs/bench.md has the rules.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/fields.h"
+#include "core/json_value.h"
+
+namespace rockyard::campaign {
+
+// What entries may see of the world, and what they may compute. Results of different tracks or
+// classes are never put into one table.
+enum class BenchTrack { kPoints, kMap, kImages };
+enum class BenchComputing { kUnlimited, kBudgeted };
+
+// The manifest without "set".
+struct EntryParams {
+  std::string name;
+  BenchTrack track = BenchTrack::kPoints;
+  BenchComputing computing = BenchComputing::kUnlimited;
+  std::string navigator;  // its name in a scenario
+  std::string plugin;     // file of a library; "" or of `process`: none
+  std::string process;    // command of a navigator's process
+  std::string about;      // a sentence
+  std::string authors;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+struct BenchEntry {
+  std::filesystem::path folder;
+  EntryParams manifest;
+  core::JsonValue document;           // the manifest whole
+  std::vector<std::string> settings;  // "PATH=VALUE" of every cell
+  // Of the manifest and every other file of the folder: names and bytes. Hidden files and
+  // __pycache__ do not count.
+  std::string digest;
+};
+
+inline constexpr const char* kEntryFile = "entry.json";
+
+// Reads an entry: a folder, or the manifest in it. Throws core::UserError with what is wrong: a
+// setting of anything but the navigator, both a plugin and a process, files outside of the folder.
+BenchEntry ReadEntry(const std::filesystem::path& path);
+
+}  // namespace rockyard::campaign
+
+namespace rockyard::core {
+
+template <>
+struct EnumNames<campaign::BenchTrack> {
+  static constexpr std::array<std::string_view, 3> kNames{"points", "map", "images"};
+};
+template <>
+struct EnumNames<campaign::BenchComputing> {
+  static constexpr std::array<std::string_view, 2> kNames{"unlimited", "budgeted"};
+};
+
+}  // namespace rockyard::core
