@@ -42,7 +42,9 @@ void AddRun(CLI::App& bench, ExitCode& exit_code) {
   CLI::App* command = bench.add_subcommand(
       "run", "Drives the cells of a suite with an entry; keeps every record and every action");
   CampaignOptions& campaign = options->campaign;
-  command->add_option("ENTRY", options->request.entry, "folder of the entry, with its entry.json")
+  command
+      ->add_option("ENTRY", options->request.entry,
+                   "manifest of the entry, or its folder with an entry.json")
       ->required();
   command->add_option("--suite", options->request.suite, "sweep file or its name (bench/points)");
   command
@@ -97,17 +99,18 @@ void AddReport(CLI::App& bench) {
   command->callback([options] {
     std::optional<campaign::OutputFolder> folder;
     if (!options->out.empty()) {
-      folder.emplace(
-          options->out, options->existing,
-          campaign::OutputPlan{.command = "bench",
-                               .names = {"standings.csv", "groups.csv", "cells.csv", "bench.md"},
-                               .inputs = options->folders});
+      folder.emplace(options->out, options->existing,
+                     campaign::OutputPlan{.command = "bench",
+                                          .names = {"standings.csv", "groups.csv", "cells.csv",
+                                                    "ends.csv", "bench.md"},
+                                          .inputs = options->folders});
     }
     const campaign::Standings standings = campaign::MakeStandings(options->folders);
     if (folder) {
       folder->Write("standings", "standings.csv", standings.Table().Csv());
       folder->Write("groups", "groups.csv", standings.Groups().Csv());
       folder->Write("cells", "cells.csv", standings.Cells().Csv());
+      folder->Write("ends", "ends.csv", standings.Ends().Csv());
       folder->Write("page", "bench.md", standings.Markdown());
       folder->Finish();
     }
@@ -148,6 +151,8 @@ void AddVerify(CLI::App& bench, ExitCode& exit_code) {
   CLI::App* command = bench.add_subcommand(
       "verify", "Makes the chain of a run again, and drives some of its drives by their actions");
   command->add_option("RUN", options->request.folder, "folder of a run of an entry")->required();
+  command->add_option("--suite", options->request.suite,
+                      "sweep file or its name (default: bench/ and the name in the run)");
   command
       ->add_option("--sample", options->request.sample,
                    "drives that are driven again; as many as there are for all (300)")

@@ -158,7 +158,8 @@ class Reader {
     return end;
   }
 
-  bool at_end() const { return at_ < log_.size() && log_[at_] == static_cast<char>(Part::kEnd); }
+  // Also where the log is cut off here, which ReadEnd finds.
+  bool at_end() const { return at_ == log_.size() || log_[at_] == static_cast<char>(Part::kEnd); }
 
  private:
   std::uint8_t Byte() {

@@ -165,9 +165,12 @@ BenchRun ReadBenchRun(const fs::path& folder) {
     throw core::UserError(file, fmt::format("is of version {} of the benchmark", version),
                           fmt::format("this program knows version {}", kBenchVersion));
   }
-  if (const JsonValue* entry = run.document.Find("entry")) {
-    core::ReadParams(*entry, run.manifest, {"set"});
+  const JsonValue* entry = run.document.Find("entry");
+  if (entry == nullptr) {
+    throw core::UserError(file, "has no \"entry\"",
+                          "take the file as `rockyard bench run` wrote it");
   }
+  core::ReadParams(*entry, run.manifest, {"set"});
   run.entry_digest = TextIn(run.document, "entry_digest", file);
   run.suite = TextIn(run.document, "suite", file);
   run.suite_digest = TextIn(run.document, "suite_digest", file);

@@ -30,6 +30,8 @@ struct ScoredDrive {
   bool declared = false;
   bool unsafe = false;
   bool scraped = false;
+  truth::TrialOutcome outcome = truth::TrialOutcome::kSimulatorFault;
+  double no_progress_m = 0.0;
   double way_m = 0.0;
   double time_s = 0.0;
   double energy_wh = 0.0;
@@ -59,6 +61,7 @@ ScoredCells ReadCells(const BenchRun& run) {
   const std::size_t time = ColumnOf(schema, "active_time_s");
   const std::size_t energy = ColumnOf(schema, "active_energy_wh");
   const std::size_t scrapes = ColumnOf(schema, "scrapes");
+  const std::size_t no_progress = ColumnOf(schema, "no_progress_distance_m");
   ScoredCells cells;
   std::map<std::string, int> sizes;
   for (int i = 0; i < store.cells(); ++i) {
@@ -67,12 +70,14 @@ ScoredCells ReadCells(const BenchRun& run) {
     ++sizes[GroupOf(cell.name)];
     for (const truth::Record& record : store.Load(i)) {
       ScoredDrive drive;
+      drive.outcome = record.outcome;
       drive.arrived = TrueSuccess(record.outcome);
       drive.declared = DeclaredSuccess(record.outcome);
       drive.unsafe = record.outcome == truth::TrialOutcome::kTipOver ||
                      record.outcome == truth::TrialOutcome::kHighCentred;
       if (!record.values.empty()) {
         drive.scraped = record.values.at(scrapes) > 0.0;
+        drive.no_progress_m = record.values.at(no_progress);
         drive.way_m = record.values.at(way);
         drive.time_s = record.values.at(time);
         drive.energy_wh = record.values.at(energy);
@@ -165,6 +170,18 @@ std::vector<ScoredPart> PartsOf(const ScoredCells& cells, const ScoredCells& bas
   return parts;
 }
 
+void SetEnds(Standing& standing, const ScoredCells& cells) {
+  for (const ScoredCell& cell : cells) {
+    const double share = cell.weight / static_cast<double>(cell.drives.size());
+    for (const ScoredDrive& drive : cell.drives) {
+      standing.ends.at(static_cast<std::size_t>(drive.outcome)) += share;
+      for (std::size_t i = 0; drive.arrived && i < kPatience_m.size(); ++i) {
+        if (drive.no_progress_m <= kPatience_m.at(i)) standing.arrived_within.at(i) += share;
+      }
+    }
+  }
+}
+
 Standing StandingOf(BenchRun run, const ScoredCells& cells, const ScoredCells& baseline) {
   Standing standing;
   standing.run = std::move(run);
@@ -184,6 +201,7 @@ Standing StandingOf(BenchRun run, const ScoredCells& cells, const ScoredCells& b
   standing.way_ratio = RatioOf(cells, baseline, &ScoredDrive::way_m);
   standing.time_ratio = RatioOf(cells, baseline, &ScoredDrive::time_s);
   standing.energy_ratio = RatioOf(cells, baseline, &ScoredDrive::energy_wh);
+  SetEnds(standing, cells);
   standing.groups = PartsOf(cells, baseline, true);
   standing.cells = PartsOf(cells, baseline, false);
   return standing;
@@ -292,6 +310,20 @@ report::ResultTable Standings::Groups() const {
 
 report::ResultTable Standings::Cells() const {
   return PartsTable(entries, "cell", &Standing::cells);
+}
+
+report::ResultTable Standings::Ends() const {
+  report::ResultTable table("entry,end,share");
+  for (const Standing& of : entries) {
+    for (std::size_t i = 0; i < of.ends.size(); ++i) {
+      table.Add(of.run.name(), truth::kTrialOutcomeNames.at(i), of.ends.at(i));
+    }
+    for (std::size_t i = 0; i < kPatience_m.size(); ++i) {
+      table.Add(of.run.name(), fmt::format("goal_reached_within_{:g}_m", kPatience_m.at(i)),
+                of.arrived_within.at(i));
+    }
+  }
+  return table;
 }
 
 std::string Standings::Markdown() const {

@@ -5,6 +5,7 @@
 // Student's over layouts, also of differences between entries, which have met the same layouts.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -14,6 +15,7 @@
 #include "core/json_value.h"
 #include "report/result_table.h"
 #include "statistics/proportions.h"
+#include "truth/record.h"
 
 namespace rockyard::campaign {
 
@@ -30,6 +32,10 @@ struct Estimated {
 
 // What is known of an entry beside the baseline.
 enum class Verdict { kBetter, kWorse, kTied, kUnknown };
+
+// Limits of patience at which arrivals are told, m: what the rover drives between two progresses
+// towards its goal (no_progress_distance_m of truth/drive_record.h). One run gives them all.
+inline constexpr std::array<double, 4> kPatience_m{5.0, 10.0, 20.0, 40.0};
 
 // Of one entry in one group, or in one cell.
 struct ScoredPart {
@@ -58,6 +64,8 @@ struct Standing {
   double way_ratio = 1.0;
   double time_ratio = 1.0;
   double energy_ratio = 1.0;
+  std::array<double, kPatience_m.size()> arrived_within{};      // weighted shares, by kPatience_m
+  std::array<double, truth::kTrialOutcomeNames.size()> ends{};  // the same, by outcome
   std::vector<ScoredPart> groups;
   std::vector<ScoredPart> cells;
 };
@@ -71,6 +79,7 @@ struct Standings {
   report::ResultTable Table() const;   // a row for each entry
   report::ResultTable Groups() const;  // a row for each entry and group
   report::ResultTable Cells() const;   // a row for each entry and cell
+  report::ResultTable Ends() const;    // a row for each entry and end, and limit of patience
   std::string Markdown() const;
 };
 

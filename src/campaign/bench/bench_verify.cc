@@ -39,26 +39,15 @@ struct StoredDrive {
   truth::Record record;
 };
 
-// Returns the settings that the manifest in a run states, without its plugin, which is not opened.
-std::vector<std::string> ManifestSettings(const BenchRun& run) {
-  std::vector<std::string> settings{"navigation.navigator=" + run.manifest.navigator};
-  const core::JsonValue* entry = run.document.Find("entry");
-  if (const core::JsonValue* set = entry == nullptr ? nullptr : entry->Find("set")) {
-    for (const core::JsonMember& member : set->members()) {
-      settings.push_back(member.key + "=" + core::CompactJson(member.value));
-    }
-  }
-  return settings;
-}
-
 // Whether the cells of the store are those of the suite with what the entry may set.
-void CheckCells(const BenchRun& run, const batch::ResultStore& store,
+void CheckCells(const BenchRun& run, const std::string& suite_word, const batch::ResultStore& store,
                 std::vector<std::string>& findings) {
   const scenario::Sweep suite = scenario::LoadSweep(
-      ScenarioFile("bench/" + run.suite, Wanted::kSweep), {.overrides = ManifestSettings(run),
-                                                           .trials = run.layouts,
-                                                           .seed = run.seed,
-                                                           .sealed = true});
+      ScenarioFile(suite_word.empty() ? "bench/" + run.suite : suite_word, Wanted::kSweep),
+      {.overrides = SettingsOf(*run.document.Find("entry"), run.manifest),
+       .trials = run.layouts,
+       .seed = run.seed,
+       .sealed = true});
   const auto& cells = store.identity().cells;
   if (cells.size() != suite.cells.size()) {
     findings.push_back(
@@ -199,7 +188,7 @@ BenchVerification VerifyBench(const BenchVerifyRequest& request,
     throw core::UserError(request.folder.string(), "was driven by another build: " + builds.front(),
                           "verify it with that program");
   }
-  CheckCells(verification.run, store, verification.findings);
+  CheckCells(verification.run, request.suite, store, verification.findings);
   const std::int64_t seed =
       verification.run.beacon.empty()
           ? verification.run.seed

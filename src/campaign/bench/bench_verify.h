@@ -17,6 +17,7 @@ namespace rockyard::campaign {
 
 struct BenchVerifyRequest {
   std::filesystem::path folder;
+  std::string suite = {};     // a sweep file or its name; "": bench/ and the name in the run
   std::int64_t sample = 300;  // drives that are driven again; all where there are no more
   std::uint64_t seed = 0;     // of the choice of these drives: not to be known to the entry
   int threads = 0;            // 0: as many as the machine runs at once

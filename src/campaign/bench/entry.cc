@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <system_error>
 
 #include "core/archive.h"
 #include "core/digest.h"
@@ -77,14 +78,35 @@ void EntryParams::Visit(core::FieldVisitor& v) {
             "leave one of the two out");
 }
 
+std::vector<std::string> SettingsOf(const core::JsonValue& document, const EntryParams& manifest) {
+  std::vector<core::Problem> problems;
+  std::vector<std::string> settings{"navigation.navigator=" + manifest.navigator};
+  if (manifest.computing == BenchComputing::kBudgeted) {
+    settings.push_back(fmt::format("clock.compute.operations_per_s={}", kBudget_ops_s));
+  }
+  if (const core::JsonValue* set = document.Find("set")) {
+    if (!set->Is(core::JsonValue::Type::kObject)) {
+      throw core::UserError("set", "is no object", "give it as {\"PATH\": VALUE}");
+    }
+    for (const core::JsonMember& member : set->members()) {
+      CheckSetting(manifest, member.key, problems);
+      settings.push_back(member.key + "=" + core::CompactJson(member.value));
+    }
+  }
+  if (!problems.empty()) throw core::UserError(std::move(problems));
+  return settings;
+}
+
 BenchEntry ReadEntry(const fs::path& path) {
-  const fs::path folder =
-      fs::absolute(path.filename() == kEntryFile ? path.parent_path() : path).lexically_normal();
-  const std::string file = (folder / kEntryFile).string();
-  BenchEntry entry{.folder = folder, .manifest = {}, .document = {}, .settings = {}, .digest = {}};
+  std::error_code error;
+  const fs::path manifest_file =
+      fs::absolute(fs::is_directory(path, error) ? path / "entry.json" : path).lexically_normal();
+  const fs::path folder = manifest_file.parent_path();
+  const std::string file = manifest_file.string();
+  BenchEntry entry;
   constexpr std::size_t kMaxManifest = 1 << 20;
-  entry.document =
-      core::ParseJson(core::ReadTextFile(file, kMaxManifest, "the manifest of an entry"), file);
+  const std::string text = core::ReadTextFile(file, kMaxManifest, "the manifest of an entry");
+  entry.document = core::ParseJson(text, file);
   core::ReadParams(entry.document, entry.manifest, {"set"});
   const EntryParams& manifest = entry.manifest;
   std::vector<core::Problem> problems;
@@ -99,23 +121,17 @@ BenchEntry ReadEntry(const fs::path& path) {
   if (!manifest.process.empty()) {
     plugins.push_back(core::JsonValue::Object({{"process", core::JsonValue(manifest.process)}}));
   }
-  if (!plugins.empty()) {
+  const bool own_code = !plugins.empty();
+  if (own_code) {
     entry.settings.push_back(fmt::format(
         "{}={}", plugin::kPluginsKey,
         core::CompactJson(plugin::Anchored(core::JsonValue(std::move(plugins)), folder))));
   }
-  entry.settings.push_back("navigation.navigator=" + manifest.navigator);
-  if (const core::JsonValue* set = entry.document.Find("set")) {
-    if (!set->Is(core::JsonValue::Type::kObject)) {
-      throw core::UserError("set", "is no object", "give it as {\"PATH\": VALUE}");
-    }
-    for (const core::JsonMember& member : set->members()) {
-      CheckSetting(manifest, member.key, problems);
-      entry.settings.push_back(member.key + "=" + core::CompactJson(member.value));
-    }
+  for (std::string& setting : SettingsOf(entry.document, manifest)) {
+    entry.settings.push_back(std::move(setting));
   }
   if (!problems.empty()) throw core::UserError(std::move(problems));
-  entry.digest = DigestOf(folder);
+  entry.digest = core::Sha256(core::Sha256(text) + (own_code ? DigestOf(folder) : std::string()));
   return entry;
 }
 

@@ -1,5 +1,5 @@
-// An entry of the benchmark: a folder with a manifest (entry.json), and all that its navigator
-// needs. docs/bench.md has the rules.
+// An entry of the benchmark: a manifest, and beside it all that its navigator needs. docs/bench.md
+// has the rules.
 #pragma once
 
 #include <array>
@@ -18,6 +18,10 @@ namespace rockyard::campaign {
 enum class BenchTrack { kPoints, kMap, kImages };
 enum class BenchComputing { kUnlimited, kBudgeted };
 
+// Operations a second of the modelled computer for entries whose computing is budgeted: some 22
+// million instructions a second of MER's RAD6000 (clock.compute.operations_per_s).
+inline constexpr double kBudget_ops_s = 2.2e7;
+
 // The manifest without "set".
 struct EntryParams {
   std::string name;
@@ -33,19 +37,21 @@ struct EntryParams {
 };
 
 struct BenchEntry {
-  std::filesystem::path folder;
   EntryParams manifest;
   core::JsonValue document;           // the manifest whole
   std::vector<std::string> settings;  // "PATH=VALUE" of every cell
-  // Of the manifest and every other file of the folder: names and bytes. Hidden files and
-  // __pycache__ do not count.
+  // Of the manifest, and where it has a plugin or process of every file of its folder: names and
+  // bytes. Hidden files and __pycache__ do not count.
   std::string digest;
 };
 
-inline constexpr const char* kEntryFile = "entry.json";
+// Returns what a manifest sets of every cell, "PATH=VALUE", but for its plugin. Throws
+// core::UserError where it sets what is not the entry's.
+std::vector<std::string> SettingsOf(const core::JsonValue& document, const EntryParams& manifest);
 
-// Reads an entry: a folder, or the manifest in it. Throws core::UserError with what is wrong: a
-// setting of anything but the navigator, both a plugin and a process, files outside of the folder.
+// Reads an entry: a manifest, or the entry.json of a folder. Throws core::UserError with what is
+// wrong: a setting of anything but the navigator, both a plugin and a process, files outside of the
+// folder.
 BenchEntry ReadEntry(const std::filesystem::path& path);
 
 }  // namespace rockyard::campaign

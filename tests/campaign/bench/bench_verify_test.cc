@@ -1,0 +1,174 @@
+// Runs of entries: what is kept of them, and that whatever somebody changes in one is found.
+#include "campaign/bench/bench_verify.h"
+
+#include <bit>
+#include <cmath>
+
+#include "batch/campaign_differences.h"
+#include "bench_runs.h"
+#include "core/error.h"
+
+namespace rockyard::campaign {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class BenchVerify : public BenchRuns {
+ protected:
+  fs::path Driven() const {
+    const WorkResult result = RunBench(Request("run"));
+    EXPECT_EQ(result.outcome, Outcome::kDone);
+    return Path("run");
+  }
+
+  BenchVerification Verify(const fs::path& run, std::int64_t sample = 100) const {
+    return VerifyBench({.folder = run,
+                        .suite = Path("suite.json").string(),
+                        .sample = sample,
+                        .seed = 5,
+                        .threads = 1});
+  }
+
+  static void FlipLowestBit(double& value) {
+    value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) ^ 1);
+  }
+};
+
+constexpr auto kUnchanged = [](std::size_t, std::vector<truth::Record>&) {};
+
+TEST_F(BenchVerify, AnHonestRunHasNoFindings) {
+  const fs::path run = Driven();
+  const BenchVerification found = Verify(run);
+  EXPECT_THAT(found.findings, IsEmpty());
+  EXPECT_EQ(found.drives, 9);
+  EXPECT_EQ(found.driven_again, 9);
+  EXPECT_EQ(Verify(run, 4).driven_again, 4);
+  EXPECT_EQ(found.run.name(), "mine");
+  EXPECT_EQ(found.run.seed, 4);
+  EXPECT_EQ(found.run.layouts, 3);
+}
+
+TEST_F(BenchVerify, ResumingGivesTheSameHead) {
+  const std::string head = ReadBenchRun(Driven()).head;
+  BenchRequest request = Request("again");
+  request.campaign.trials = 2;
+  ASSERT_EQ(RunBench(request).outcome, Outcome::kDone);
+  EXPECT_NE(ReadBenchRun(Path("again")).head, head);
+  request.campaign.trials = 3;
+  request.campaign.existing = ExistingRun::kResume;
+  ASSERT_EQ(RunBench(request).outcome, Outcome::kDone);
+  EXPECT_EQ(ReadBenchRun(Path("again")).head, head);
+}
+
+TEST_F(BenchVerify, OneBitOfOneRecord) {
+  const fs::path forged =
+      Forge(Driven(), "forged", [](std::size_t cell, std::vector<truth::Record>& records) {
+        if (cell == 1) FlipLowestBit(records[2].values[0]);
+      });
+  EXPECT_THAT(Verify(forged, 0).findings,
+              ElementsAre("trial 2 of near/many is not the drive that the chain holds"));
+  LinkAnew(forged);
+  EXPECT_THAT(Verify(forged, 0).findings, IsEmpty()) << "a chain alone holds nobody who makes it";
+  EXPECT_THAT(Verify(forged).findings,
+              ElementsAre(HasSubstr("trial 2 of near/many is another one")));
+}
+
+TEST_F(BenchVerify, OneBitOfOneAction) {
+  const fs::path run = Driven();
+  const batch::CellIdentity& cell = batch::ResultStore::Read(run).identity().cells.at(2);
+  const fs::path file = run / ActionFile(2, cell.name, NavigatorSeed(4, 1));
+  std::string log = Read(file);
+  log.at(log.size() / 2) ^= 1;
+  Write(file, log);
+  EXPECT_THAT(Verify(run, 0).findings,
+              ElementsAre("trial 1 of slow/few is not the drive that the chain holds"));
+}
+
+TEST_F(BenchVerify, DrivesOfOtherLayoutsInTheirPlace) {
+  // The best drive of a cell for all of its layouts.
+  const fs::path run = Driven();
+  const fs::path forged =
+      Forge(run, "forged", [](std::size_t cell, std::vector<truth::Record>& records) {
+        if (cell != 0) return;
+        records[1].outcome = records[0].outcome;
+        records[1].values = records[0].values;
+      });
+  fs::copy_file(forged / ActionFile(0, "near/few", NavigatorSeed(4, 0)),
+                forged / ActionFile(0, "near/few", NavigatorSeed(4, 1)),
+                fs::copy_options::overwrite_existing);
+  LinkAnew(forged);
+  EXPECT_THAT(Verify(forged).findings, Contains(HasSubstr("trial 1 of near/few is another one")));
+}
+
+TEST_F(BenchVerify, AnEasierSuite) {
+  const fs::path forged =
+      Forge(Driven(), "forged", kUnchanged, [](batch::CampaignIdentity& identity) {
+        std::string& resolved = identity.cells.at(1).resolved;
+        const std::string rocks = "\"k_per_m2\": 0.02";
+        resolved.replace(resolved.find(rocks), rocks.size(), "\"k_per_m2\": 0.01");
+        identity.cells.at(1).fingerprint =
+            batch::ResolvedFingerprint(core::ParseJson(resolved, "resolved"));
+      });
+  LinkAnew(forged);
+  EXPECT_THAT(Verify(forged, 0).findings,
+              Contains(HasSubstr("terrain.rocks.k_per_m2 is 0.01, and 0.02 in the suite")));
+}
+
+TEST_F(BenchVerify, AnotherSeedThanTheBeacons) {
+  BenchRequest request = Request("run");
+  request.beacon = "round 1";
+  ASSERT_EQ(RunBench(request).outcome, Outcome::kDone);
+  EXPECT_THAT(Verify(Path("run"), 0).findings, IsEmpty());
+  core::JsonValue document = core::ParseJson(Read(Path("run") / kBenchFile), kBenchFile);
+  document.Set("beacon", core::JsonValue("round 2"));
+  Write(Path("run") / kBenchFile, core::DumpJson(document));
+  EXPECT_THAT(Verify(Path("run"), 0).findings, ElementsAre("the seed is not that of the beacon"));
+}
+
+TEST_F(BenchVerify, AChainThatIsCutOff) {
+  const fs::path run = Driven();
+  std::string chain = Read(run / kChainFile);
+  chain.resize(chain.rfind('\n', chain.size() - 2) + 1);
+  Write(run / kChainFile, chain);
+  EXPECT_THAT(Verify(run, 0).findings,
+              ElementsAre(HasSubstr("does not end with the head"), HasSubstr("has 8 links")));
+}
+
+TEST_F(BenchVerify, ActionsThatCouldNotBeWrittenEndTheRun) {
+  Write(Path("run/actions"), "a file where a folder is needed");
+  BenchRequest request = Request("run");
+  request.campaign.existing = ExistingRun::kSetAside;
+  const WorkResult result = RunBench(request);
+  EXPECT_EQ(result.outcome, Outcome::kFailed);
+  ASSERT_EQ(result.problems.size(), 1u);
+  EXPECT_THAT(result.problems[0].reason, HasSubstr("were not written"));
+  EXPECT_FALSE(fs::exists(Path("run") / kBenchFile));
+}
+
+// P(no invented drive among n of N) by factorials.
+TEST(BenchChance, IsThatOfDrawingWithoutReplacement) {
+  BenchVerification found;
+  found.drives = 2000;
+  found.driven_again = 300;
+  const auto log_choose = [](double n, double k) {
+    return std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1);
+  };
+  EXPECT_NEAR(found.ChanceToMiss(0.01), std::exp(log_choose(1980, 300) - log_choose(2000, 300)),
+              1e-9);
+  EXPECT_LT(found.ChanceToMiss(0.01), 0.05);
+}
+
+// By hashlib of Python.
+TEST(BeaconSeed, IsTheHeadOfADigest) {
+  EXPECT_EQ(BeaconSeed("suite", "round 1"), 1102378535974949734);
+  EXPECT_NE(BeaconSeed("suite", "round 2"), BeaconSeed("suite", "round 1"));
+  EXPECT_NE(BeaconSeed("other", "round 1"), BeaconSeed("suite", "round 1"));
+}
+
+}  // namespace
+}  // namespace rockyard::campaign
