@@ -73,7 +73,7 @@ def options_of(entry):
             skip = False
         elif word in ("-o", "-c", "-MT", "-MF"):
             skip = True
-        elif word not in ("-MD", entry["file"]):
+        elif word not in ("-MD", entry["file"]) and not word.startswith("--param="):  # of GCC alone
             options.append(word)
     return options
 

@@ -15,6 +15,11 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 add_compile_options(-fno-semantic-interposition)
 
+# GCC looks for garbage from 128 MB on, which takes a tenth of its time: from 1 GB on.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options(--param=ggc-min-heapsize=1048576)
+endif()
+
 find_program(ROCKYARD_CCACHE ccache)
 mark_as_advanced(ROCKYARD_CCACHE)
 if(ROCKYARD_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
