@@ -140,8 +140,8 @@ TEST(DepressionTest, SlopesAndBoundsAgreeWithHeights) {
     steepest = std::max(steepest, std::hypot(at.slope_x, at.slope_y));
     // The larger eigenvalue, by size, of the symmetric matrix of second derivatives.
     const double xx = right.slope_x - left.slope_x, yy = up.slope_y - down.slope_y;
-    const double bend = std::abs(xx + yy) / 2.0 +
-                        std::hypot((xx - yy) / 2.0, right.slope_y - left.slope_y);
+    const double bend =
+        std::abs(xx + yy) / 2.0 + std::hypot((xx - yy) / 2.0, right.slope_y - left.slope_y);
     most_bent_per_m = std::max(most_bent_per_m, bend / (2.0 * kStep_m));
   }
   EXPECT_LE(steepest, field.MaxSlope());
