@@ -106,6 +106,12 @@ NavigatorDecision GestaltCycle::OnCloud(const NavigatorInput& input) {
   const PlanOrigin origin{input.estimate, manoeuvre_.steered_per_m()};
   evaluation_.See(*input.cloud, BelievedPose(input), input.estimate);
   evaluation_.Vote(origin, goal_O_, felt_);
+  const double turn_rad = RemedyTurn(origin);
+  progress_.Rest();
+  if (turn_rad != 0.0) {
+    evaluation_.Show(origin, input.attitude, goal_O_);
+    return BeginRemedyTurn(turn_rad, input);
+  }
   if (const messages::Spline* safe = evaluation_.TakeSafeSpline()) {
     evaluation_.Show(origin, input.attitude, goal_O_);
     return BeginSpline(*safe, input);
@@ -132,6 +138,11 @@ NavigatorDecision GestaltCycle::Choose(const NavigatorInput& input) {
   if (!turns) return BeginDrive(chosen->motion, input);
   return Begin(searches ? Stage::kTurning : StageOf(turn), turn.motion, std::abs(turn.turn_rad),
                input);
+}
+
+NavigatorDecision GestaltCycle::BeginRemedyTurn(double turn_rad, const NavigatorInput& input) {
+  return Begin(Stage::kTurning, {MotionKind::kTurnInPlace, 0.0, turn_rad < 0.0 ? -1 : +1},
+               std::abs(turn_rad), input);
 }
 
 NavigatorDecision GestaltCycle::BeginDrive(MotionCommand arc, const NavigatorInput& input) {
@@ -215,6 +226,12 @@ bool GestaltCycle::Progresses(const PoseEstimate& estimate) {
   const Progress::Cycle cycle = progress_.BeginCycle(DistanceToGoal_m(estimate));
   if (cycle == Progress::Cycle::kGains) felt_.ForgetPlaces();
   return cycle != Progress::Cycle::kGivesUp;
+}
+
+double GestaltCycle::RemedyTurn(const PlanOrigin& origin) {
+  progress_.CountTurn(origin.pose.heading_rad);
+  if (search_.HasTurnedAround()) return 0.0;
+  return evaluation_.RemedyTurn(origin, goal_O_, progress_.turned_rad());
 }
 
 bool GestaltCycle::AtGoal(const PoseEstimate& estimate) const {

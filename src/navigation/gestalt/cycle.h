@@ -75,6 +75,7 @@ class GestaltCycle {
   NavigatorDecision Look(Stage stage);
   NavigatorDecision OnCloud(const NavigatorInput& input);
   NavigatorDecision Choose(const NavigatorInput& input);
+  NavigatorDecision BeginRemedyTurn(double turn_rad, const NavigatorInput& input);
   NavigatorDecision BeginDrive(messages::MotionCommand arc, const NavigatorInput& input);
   NavigatorDecision BeginSpline(const messages::Spline& spline, const NavigatorInput& input);
   NavigatorDecision Begin(Stage stage, const messages::MotionCommand& motion, double leg,
@@ -89,6 +90,7 @@ class GestaltCycle {
   NavigatorDecision EndMotion(const NavigatorInput& input);
   NavigatorDecision Replan(const NavigatorInput& input);
   NavigatorDecision ReplaceMotion(const NavigatorInput& input, const PlanOrigin& origin);
+  NavigatorDecision StopToTurn();
   NavigatorDecision OnNoSafePlan();
 
   bool turns() const { return stage_ == Stage::kTurning || stage_ == Stage::kTurningToDrive; }
@@ -97,6 +99,8 @@ class GestaltCycle {
   }
   double DistanceToGoal_m(const messages::PoseEstimate& estimate) const;
   bool Progresses(const messages::PoseEstimate& estimate);
+  // Returns the turn in place of a remedy that is made before anything is driven; 0: none.
+  double RemedyTurn(const PlanOrigin& origin);
   bool AtGoal(const messages::PoseEstimate& estimate) const;
   messages::MotionVote& NextTurn(const messages::PoseEstimate& estimate);
   // Returns kTurningToDrive for a turn after whose end the rover may drive straight on, else

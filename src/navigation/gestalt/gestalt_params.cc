@@ -131,6 +131,7 @@ void GestaltParams::Visit(core::FieldVisitor& v) {
   v.Group("continuous", continuous, "looking and planning on the move");
   v.Group("splines", splines, "splines, of a rover that steers while it drives");
   v.Group("speed", speed, "how fast curves are driven by a rover that steers while it drives");
+  v.Group("remedies", remedies, "what is done otherwise than the papers do it, off by default");
   v.Require("plan.plan_min_dist_m", plan.plan_min_dist_m < map.Reach_m(),
             "is where the map ends or beyond (half of its grid, or grid_dist_timeout_m): nothing "
             "of any path could be known",
