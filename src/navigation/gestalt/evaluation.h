@@ -13,6 +13,8 @@
 #include "navigation/gestalt/splines.h"
 #include "navigation/gestalt/turns.h"
 #include "navigation/gestalt/votes.h"
+#include "navigation/gestalt/way_to_go.h"
+#include "navigation/gestalt/way_votes.h"
 
 namespace rockyard::navigation {
 
@@ -61,6 +63,8 @@ class Evaluation {
   std::optional<SplineVoter> spline_voter_;  // where the cycle is csad
   MotionVotes votes_;
   SplineVotes spline_votes_;
+  WayToGo way_;
+  WayVoter way_voter_;
   RemedyTurns remedy_turns_;
   const GoodnessGrid* grid_ = nullptr;  // of the last votes
   bool looked_behind_ = false;

@@ -147,6 +147,9 @@ void GestaltParams::Visit(core::FieldVisitor& v) {
             continuous.cycle != DriveCycle::kCsad || continuous.motion_m <= splines.length_m,
             "is beyond the end of the splines (splines.length_m)",
             "use a smaller motion_m or a larger splines.length_m");
+  v.Require("remedies.cost_to_go.enabled",
+            !remedies.cost_to_go.enabled || map.grid.xstep_m == map.grid.ystep_m,
+            "needs cells as long as wide", "make map.grid.xstep_m and ystep_m equal");
   v.Require("drive.max_fruitless_cycles",
             static_cast<double>(drive.max_fruitless_cycles) * arcs.point_turn_amount_rad >=
                 drive.search_turn_rad,

@@ -7,6 +7,45 @@ namespace rockyard::navigation {
 using core::Assumed;
 using core::Setting;
 
+void CostToGoParams::Visit(core::FieldVisitor& v) {
+  v.Boolean("enabled", enabled,
+            Setting("motions are voted on by the way that is left from their ends, searched over "
+                    "what the rover has seen, in place of the direction of the goal"));
+  v.Real("unseen_cost", unseen_cost,
+         Assumed("cost of a metre of ground that was never seen, in metres of good ground",
+                 "unseen ground is mostly good, and a seen way is to be preferred to it where they "
+                 "are nearly as long",
+                 {0.1, 100.0}, {1.0, 3.0}));
+  v.Real("rough_cost", rough_cost,
+         Assumed("cost of a metre of the worst ground that may be driven; goodness 255 costs 1, "
+                 "and in between it is linear",
+                 "hazard votes keep the rover off bad ground; the way only has to prefer the good",
+                 {1.0, 100.0}, {1.0, 10.0}));
+  v.Real("blocked_cost", blocked_cost,
+         Assumed("cost of a metre of ground that must not be driven (votes.min_allowed_goodness)",
+                 "through a rock that is grown by the vehicle, 1.2 m, it is longer than any detour "
+                 "in the window",
+                 {1.0, 1e4}, {20.0, 200.0}));
+  v.Real("memory_m", memory_m,
+         Setting("side of the square around the rover in which what was seen is remembered and the "
+                 "way is searched; farther on the way is straight, over unseen ground",
+                 {2.0, 60.0}));
+  v.Choice("seen_again", seen_again,
+           Assumed("what is remembered of a cell that was seen more than once",
+                   "the map holds the mean of a cell's points, so that a wall seen from nearby can "
+                   "open and shut again; a way is not to lead there and back with it"));
+  v.Real("way_m", way_m,
+         Assumed("length of an arc, or of a straight drive after a turn, after which the way that "
+                 "is left is asked for, or the distance to the goal if that is less; splines have "
+                 "splines.waypoint_m",
+                 "half of what is judged: arcs are replaced long before their end", {0.05, 20.0},
+                 {0.7, 3.0}));
+  v.Real("loss_m", loss_m,
+         Assumed("way that a motion loses against the best one for which its vote is 0; the best "
+                 "one has 255, and in between it is linear",
+                 "straight away from the goal is twice way_m", {0.05, 100.0}, {0.5, 6.0}));
+}
+
 void StopToTurnParams::Visit(core::FieldVisitor& v) {
   v.Boolean("enabled", enabled,
             Setting("a rover that drives splines (csad) stops and turns in place where that saves "
@@ -35,6 +74,7 @@ void TurnFirstParams::Visit(core::FieldVisitor& v) {
 }
 
 void GestaltRemedyParams::Visit(core::FieldVisitor& v) {
+  v.Group("cost_to_go", cost_to_go, "votes by the way that is left");
   v.Group("stop_to_turn", stop_to_turn, "turns in place of a rover that drives splines");
   v.Group("turn_first", turn_first, "turns in place before driving");
 }

@@ -3,6 +3,9 @@
 // remedy_params.cc.
 #pragma once
 
+#include <array>
+#include <string_view>
+
 #include "core/fields.h"
 #include "math/angles.h"
 
@@ -25,7 +28,29 @@ struct TurnFirstParams {
   void Visit(core::FieldVisitor& v);
 };
 
+// What is remembered of a cell that was seen more than once.
+enum class SeenAgain {
+  kWorst,   // its highest cost: looks from nearby lower what was a step, as they add points of the
+            // ground
+  kLatest,  // what the map knew last
+};
+
+// The cost of the way from a motion's end to the goal votes for it, in place of its direction.
+struct CostToGoParams {
+  bool enabled = false;
+  double unseen_cost = 1.2;
+  double rough_cost = 3.0;
+  double blocked_cost = 50.0;
+  double memory_m = 20.0;
+  SeenAgain seen_again = SeenAgain::kWorst;
+  double way_m = 1.5;
+  double loss_m = 3.0;
+
+  void Visit(core::FieldVisitor& v);
+};
+
 struct GestaltRemedyParams {
+  CostToGoParams cost_to_go;
   StopToTurnParams stop_to_turn;
   TurnFirstParams turn_first;
 
@@ -33,3 +58,8 @@ struct GestaltRemedyParams {
 };
 
 }  // namespace rockyard::navigation
+
+template <>
+struct rockyard::core::EnumNames<rockyard::navigation::SeenAgain> {
+  static constexpr std::array<std::string_view, 2> kNames{"worst", "latest"};
+};

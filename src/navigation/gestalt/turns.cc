@@ -19,10 +19,6 @@ using messages::PoseEstimate;
 // Directions that are looked into beside that of the goal, all round: one every 5 deg.
 constexpr int kDirections = 72;
 
-double WayFrom_m(const math::Pose2& place, const Goal& goal) {
-  return math::Hypot(goal.x_m - place.x_m, goal.y_m - place.y_m);
-}
-
 }  // namespace
 
 RemedyTurns::RemedyTurns(const GestaltParams& params)
@@ -33,32 +29,32 @@ RemedyTurns::RemedyTurns(const GestaltParams& params)
   for (const double s_m : sampling_.distance_m) straight_.push_back({s_m, 0.0});
 }
 
-double RemedyTurns::First(const GoodnessGrid& grid, const PlanOrigin& origin,
-                          const Goal& goal) const {
+double RemedyTurns::First(const GoodnessGrid& grid, const PlanOrigin& origin, const Goal& goal,
+                          const WayToGo& way) const {
   const TurnFirstParams& first = params_.remedies.turn_first;
   if (!first.enabled) return 0.0;
-  const double angle_rad = BestTurn(grid, origin.pose, goal).angle_rad;
+  const double angle_rad = BestTurn(grid, origin.pose, goal, way).angle_rad;
   return std::abs(angle_rad) > first.bearing_rad ? angle_rad : 0.0;
 }
 
 double RemedyTurns::InsteadOf(const messages::Spline* best, double turned_rad,
-                              const GoodnessGrid& grid, const PlanOrigin& origin,
-                              const Goal& goal) const {
+                              const GoodnessGrid& grid, const PlanOrigin& origin, const Goal& goal,
+                              const WayToGo& way) const {
   const StopToTurnParams& stops = params_.remedies.stop_to_turn;
   if (!stops.enabled) return 0.0;
-  const Turn turn = BestTurn(grid, origin.pose, goal);
+  const Turn turn = BestTurn(grid, origin.pose, goal, way);
   const bool out_of_reach = best == nullptr || turned_rad > stops.orbit_turn_rad ||
                             LiesInsideTightestCircle(origin.pose, goal);
   if (out_of_reach) return turn.angle_rad;
   const double length_m =
       std::min(params_.splines.waypoint_m, TowardsGoal(origin.pose, goal).distance_m);
   const math::Pose2 end = AlongSpline(Planar(origin.pose), *best, 0.0, length_m, law_);
-  const double saves_m = length_m + WayFrom_m(end, goal) - turn.way_m;
+  const double saves_m = length_m + way.From_m(end.x_m, end.y_m) - turn.way_m;
   return saves_m > stops.saves_m ? turn.angle_rad : 0.0;
 }
 
 RemedyTurns::Turn RemedyTurns::BestTurn(const GoodnessGrid& grid, const PoseEstimate& pose,
-                                        const Goal& goal) const {
+                                        const Goal& goal, const WayToGo& way) const {
   const GoalDirection direct = TowardsGoal(pose, goal);
   const double length_m = std::min(0.5 * params_.plan.plan_max_dist_m, direct.distance_m);
   Turn best{.way_m = std::numeric_limits<double>::infinity()};
@@ -66,7 +62,7 @@ RemedyTurns::Turn RemedyTurns::BestTurn(const GoodnessGrid& grid, const PoseEsti
     PoseEstimate turned = pose;
     turned.heading_rad = math::WrapAngle(pose.heading_rad + angle_rad);
     const math::Pose2 end = AlongClothoid(Planar(turned), 0.0, 0.0, length_m);
-    const double way_m = length_m + WayFrom_m(end, goal);
+    const double way_m = length_m + way.From_m(end.x_m, end.y_m);
     if (way_m >= best.way_m) return;
     const HazardVote hazard = VoteOnPath(
         grid, turned, std::span(straight_).first(sampling_.CountWithin(length_m)), sampling_.weight,

@@ -11,6 +11,7 @@
 #include "navigation/gestalt/gestalt_params.h"
 #include "navigation/gestalt/goodness_grid.h"
 #include "navigation/gestalt/manoeuvre.h"
+#include "navigation/gestalt/way_to_go.h"
 
 namespace rockyard::navigation {
 
@@ -21,13 +22,13 @@ class RemedyTurns {
 
   // Returns the turn of turn_first: towards the way, where that leads farther aside than
   // bearing_rad.
-  double First(const GoodnessGrid& grid, const PlanOrigin& origin,
-               const messages::Goal& goal) const;
+  double First(const GoodnessGrid& grid, const PlanOrigin& origin, const messages::Goal& goal,
+               const WayToGo& way) const;
 
   // Returns the turn of stop_to_turn, which replaces the spline `best`; null: none is safe.
   // `turned_rad` is what the rover has turned on the move since its last progress.
   double InsteadOf(const messages::Spline* best, double turned_rad, const GoodnessGrid& grid,
-                   const PlanOrigin& origin, const messages::Goal& goal) const;
+                   const PlanOrigin& origin, const messages::Goal& goal, const WayToGo& way) const;
 
  private:
   // A turn in place, and the way to the goal by the straight drive after it.
@@ -39,7 +40,7 @@ class RemedyTurns {
   // Returns the turn after which the way is shortest, of those after which nothing that is known
   // blocks the straight drive; no turn if there is none.
   Turn BestTurn(const GoodnessGrid& grid, const messages::PoseEstimate& pose,
-                const messages::Goal& goal) const;
+                const messages::Goal& goal, const WayToGo& way) const;
   bool LiesInsideTightestCircle(const messages::PoseEstimate& pose,
                                 const messages::Goal& goal) const;
 
