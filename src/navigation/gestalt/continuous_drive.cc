@@ -59,9 +59,9 @@ NavigatorDecision GestaltCycle::Replan(const NavigatorInput& input) {
                   input.estimate);
   // A predicted plan begins on the motion under way, s = s_look + v (t - t_look) along it.
   const bool predicts = params_.continuous.plan_start == PlanStart::kPredicted;
-  const PlanOrigin origin = predicts
-                                ? manoeuvre_.Ahead(seen, plans_.WaySince(*input.look, input.time_s))
-                                : PlanOrigin{input.estimate, manoeuvre_.steered_per_m()};
+  const PlanOrigin origin =
+      MadeGood(predicts ? manoeuvre_.Ahead(seen, plans_.WaySince(*input.look, input.time_s))
+                        : PlanOrigin{input.estimate, manoeuvre_.steered_per_m()});
   evaluation_.Vote(origin, goal_O_, felt_);
   const double turn_rad = RemedyTurn(origin);
   const NavigatorDecision next = turn_rad != 0.0 ? StopToTurn() : ReplaceMotion(input, origin);

@@ -73,10 +73,27 @@ void TurnFirstParams::Visit(core::FieldVisitor& v) {
                   {10.0, 180.0}, {45.0, 120.0}));
 }
 
+void AgainstDriftParams::Visit(core::FieldVisitor& v) {
+  v.Boolean("enabled", enabled,
+            Setting("motions are judged along the way that the rover makes good on them, by the "
+                    "sideways drift that it measures: it heads uphill of its goal. An estimator "
+                    "that goes by wheels alone measures none"));
+  v.Real("memory_m", memory_m,
+         Assumed("way over which the drift is averaged",
+                 "two plans on the move: drift changes with the slope, and single motions are "
+                 "measured to a centimetre",
+                 {0.01, 100.0}, {0.5, 3.0}));
+  v.Angle("max_angle_deg", max_angle_rad,
+          Assumed("largest angle by which the rover aims off",
+                  "a rover that drifts more than that is stuck rather than slipping", {0.0, 80.0},
+                  {15.0, 45.0}));
+}
+
 void GestaltRemedyParams::Visit(core::FieldVisitor& v) {
   v.Group("cost_to_go", cost_to_go, "votes by the way that is left");
   v.Group("stop_to_turn", stop_to_turn, "turns in place of a rover that drives splines");
   v.Group("turn_first", turn_first, "turns in place before driving");
+  v.Group("against_drift", against_drift, "aiming off against sideways slip");
 }
 
 }  // namespace rockyard::navigation

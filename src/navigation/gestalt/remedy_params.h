@@ -49,10 +49,21 @@ struct CostToGoParams {
   void Visit(core::FieldVisitor& v);
 };
 
+// A rover that drifts sideways judges its motions along the way that it makes good on them, and so
+// heads uphill of its goal.
+struct AgainstDriftParams {
+  bool enabled = false;
+  double memory_m = 1.0;
+  double max_angle_rad = math::DegToRad(30.0);
+
+  void Visit(core::FieldVisitor& v);
+};
+
 struct GestaltRemedyParams {
   CostToGoParams cost_to_go;
   StopToTurnParams stop_to_turn;
   TurnFirstParams turn_first;
+  AgainstDriftParams against_drift;
 
   void Visit(core::FieldVisitor& v);
 };
