@@ -1,9 +1,11 @@
 // Square cells in a window that follows the rover over an endless lattice.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -54,15 +56,13 @@ class RoverGrid {
   // Returns null outside of the window.
   const Cell* Find(const LatticeCell& c) const { return Holds(c) ? &At(c) : nullptr; }
 
-  // Moves the window so that the place is in its middle where it is nearer to an edge than a
-  // quarter of the window; cells that go out are forgotten.
+  // Moves the window so that the place is in its middle where it is off that by more than a
+  // sixteenth of the window; cells that go out are forgotten.
   void Follow(double x_m, double y_m) {
     const LatticeCell c = CellOf(x_m, y_m);
-    const std::int64_t quarter = n_ / 4;
-    const auto central = [&](std::int64_t at, std::int64_t first) {
-      return at - first >= quarter && at - first < n_ - quarter;
-    };
-    if (central(c.x, first_.x) && central(c.y, first_.y)) return;
+    const std::int64_t off =
+        std::max(std::abs(c.x - first_.x - n_ / 2), std::abs(c.y - first_.y - n_ / 2));
+    if (off <= n_ / 16) return;
     const RoverGrid old = std::exchange(*this, RoverGrid(*this, {c.x - n_ / 2, c.y - n_ / 2}));
     ForEach([&](const LatticeCell& cell, Cell& content) {
       if (const Cell* kept = old.Find(cell)) content = *kept;

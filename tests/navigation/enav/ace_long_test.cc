@@ -14,8 +14,8 @@ TEST(AceLong, BoundsAMillionStances) {
   EXPECT_EQ(held.left_box, 0);
   EXPECT_EQ(held.violations, 0);
   const auto poses = static_cast<double>(held.poses);
-  constexpr const char* kStates[] = {"roll", "pitch", "rocker", "left_bogie", "right_bogie",
-                                     "origin"};
+  constexpr const char* kStates[] = {"roll",       "pitch",       "rocker",
+                                     "left_bogie", "right_bogie", "origin"};
   for (std::size_t i = 0; i < held.width.size(); ++i) {
     RecordProperty(std::string(kStates[i]) + "_mean_width",
                    testing::PrintToString(held.width[i] / poses));
