@@ -1,4 +1,6 @@
 // The drive cycle of ENav on a rover in the plane, whose looks are points of a height function.
+#include <gmock/gmock.h>
+
 #include "navigation/enav/enav.h"
 #include "navigation/enav/stance.h"
 #include "navigation/gestalt/drive.h"
@@ -166,6 +168,7 @@ TEST(Enav, RetriesAndGivesUpWhereItsChecksDoNotDo) {
   // 12.5 ms a check on 266 million operations a second.
   EXPECT_EQ(drive.log()[1].decision.work_ops, 10 * 12.5e-3 * 266e6);
   EXPECT_EQ(drive.log()[2].decision.work_ops, 0.0);
+  EXPECT_THAT(drive.navigator().own_values(), testing::ElementsAre(4.0, 10.0, 4.0, 0.5));
 }
 
 TEST(Enav, PlansOnTheMove) {
