@@ -183,7 +183,7 @@ TEST(DriveExperimentTest, EveryValueIsFinite) {
     for (std::uint64_t index = 0; index < 2; ++index) {
       const truth::Record record = experiment->Run(7, index);
       ASSERT_NE(record.outcome, truth::TrialOutcome::kSimulatorFault) << record.detail;
-      for (std::size_t i = 0; i < record.values.size(); ++i) {
+      for (std::size_t i = 0; i < truth::kDriveColumns.size(); ++i) {
         // Of the columns that may lack a value these drives have a path ratio at most: no filter
         // and no rock at the goal.
         const truth::DriveColumn& column = truth::kDriveColumns[i];
