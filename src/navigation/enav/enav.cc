@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 
 #include "core/check.h"
 #include "math/functions.h"
@@ -225,6 +226,14 @@ void EnavNavigator::Show(const NavigatorInput& input) {
   overlay_.lines = {std::move(line)};
 }
 
+std::span<const double> EnavNavigator::own_values() const {
+  const auto checks = static_cast<double>(checks_);
+  const auto cycles = static_cast<double>(cycles_);
+  own_values_ = {cycles, cycles > 0.0 ? checks / cycles : 0.0, static_cast<double>(without_path_),
+                 checks * 1e-3 * params_.drive.check_ms};
+  return own_values_;
+}
+
 // Returns the operations of the checks since it was last asked.
 double EnavNavigator::WorkSince() {
   const auto checks = static_cast<double>(checks_ - worked_);
@@ -245,7 +254,11 @@ NavigatorDescription<EnavParams> DescribeEnav() {
                      const NavigatorSetup& setup) -> std::unique_ptr<Navigator> {
             return std::make_unique<EnavNavigator>(params, setup.goal, setup.rover,
                                                    setup.full_speed_m_s);
-          }};
+          },
+          .own_values = {{"cycles", "1", "how often it planned"},
+                         {"checks_per_cycle", "1", "checks by ACE, over cycles"},
+                         {"cycles_without_path", "1", "cycles in which no path passed"},
+                         {"planning_s", "s", "time of all checks on a RAD750, by check_ms"}}};
 }
 
 }  // namespace rockyard::navigation

@@ -42,6 +42,7 @@ class EnavNavigator final : public Navigator {
 
   PlanCounts plan_counts() const override { return counts_; }
   const messages::Overlay* overlay() const override { return &overlay_; }
+  std::span<const double> own_values() const override;
 
   const EnavPlanner& planner() const { return planner_; }
   const EnavPlan& plan() const { return plan_; }  // the last one
@@ -98,6 +99,7 @@ class EnavNavigator final : public Navigator {
   std::int64_t checks_ = 0;
   std::int64_t without_path_ = 0;
   std::int64_t worked_ = 0;  // checks that a decision has told the cost of
+  mutable std::array<double, 4> own_values_{};
 };
 
 // Describes the navigator `enav`, for a set of navigators.

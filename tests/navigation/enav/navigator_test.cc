@@ -1,4 +1,6 @@
 // The drive cycle of ENav on a rover in the plane, whose looks are points of a height function.
+#include <gmock/gmock.h>
+
 #include "navigation/enav/enav.h"
 #include "navigation/enav/stance.h"
 #include "navigation/gestalt/drive.h"
@@ -60,8 +62,7 @@ class EnavDrive final : public LoggedDrive<EnavTick, EnavNavigator> {
     if (felt) input.vehicle_hazard = &*felt;
     tick.decision = navigator_.Decide(input);
     if (tick.decision.looks()) {
-      const FakeRange range{.near_m = 0.5, .range_m = 9.0};
-      cloud_.points_R = range.Look(rover_.X_WR(), *tick.decision.look, setup_.height);
+      Look();
       moment_ = {};
       moment_.odometry = Odometry();
       look_ = true;
@@ -73,6 +74,18 @@ class EnavDrive final : public LoggedDrive<EnavTick, EnavNavigator> {
   }
 
  private:
+  // Points every 10 cm of what lies up to 9 m ahead, within 60 deg to either side.
+  void Look() {
+    cloud_.points_R.clear();
+    for (int i = 5; i <= 90; ++i) {
+      const int most =
+          std::min(static_cast<int>(1.73 * i), static_cast<int>(std::sqrt(8100 - i * i)));
+      for (int j = -most; j <= most; ++j) {
+        const math::Pose2 p = rover_.X_WR() * math::Pose2{0.1 * i, 0.1 * j, 0.0};
+        cloud_.points_R.push_back({0.1 * i, 0.1 * j, setup_.height(p.x_m, p.y_m)});
+      }
+    }
+  }
   messages::PoseEstimate Odometry() const {
     const math::Pose2& at = rover_.X_WR();
     return {at.x_m, at.y_m, at.heading_rad, rover_.estimate().distance_m};
@@ -166,6 +179,7 @@ TEST(Enav, RetriesAndGivesUpWhereItsChecksDoNotDo) {
   // 12.5 ms a check on 266 million operations a second.
   EXPECT_EQ(drive.log()[1].decision.work_ops, 10 * 12.5e-3 * 266e6);
   EXPECT_EQ(drive.log()[2].decision.work_ops, 0.0);
+  EXPECT_THAT(drive.navigator().own_values(), testing::ElementsAre(4.0, 10.0, 4.0, 0.5));
 }
 
 TEST(Enav, PlansOnTheMove) {

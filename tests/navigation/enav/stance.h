@@ -168,10 +168,11 @@ inline Settled SettleByCircles(const messages::RoverBelief& rover, const math::P
   return settled;
 }
 
-// Where it comes to stand in space: Newton's method on the six gaps between wheels and ground.
-// Nothing where that finds no stance.
+// Where it comes to stand in space, each wheel sunk in by so much: Newton's method on the six gaps
+// between wheels and ground. Nothing where that finds no stance.
 inline std::optional<Stance> SettleInSpace(const messages::RoverBelief& rover,
-                                           const math::Pose2& pose, const Ground& ground) {
+                                           const math::Pose2& pose, const Ground& ground,
+                                           const messages::PerWheel<double>& sunk_m = {}) {
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   const auto stance_of = [](const Vector6& q) {
     return Stance{q[0], q[1], q[2], {q[3], q[4]}, q[5]};
@@ -181,7 +182,7 @@ inline std::optional<Stance> SettleInSpace(const messages::RoverBelief& rover,
     Vector6 gap;
     for (int i = 0; i < 6; ++i) {
       const math::Vector3& p = places[static_cast<std::size_t>(i)];
-      gap[i] = p.z() - ground(p.x(), p.y());
+      gap[i] = p.z() + sunk_m[static_cast<std::size_t>(i)] - ground(p.x(), p.y());
     }
     return gap;
   };
