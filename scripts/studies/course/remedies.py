@@ -5,7 +5,8 @@ Remedies are those of scenarios/navigation/remedied.json. GESTALT and the behavi
 courses (course.py), CSOD and CSAD as in scenarios/continuous with the course's ground, goal and referee. Beside the
 courses there are a zig-zag of five waypoints, a cross-slope of 12 degrees over 15 m, and, for CSAD, empty slopes of 0 to
 12 degrees up, down and across. All arms have 40 m of patience, the same seeds and so the same noise. A way is that of
-the trials that truly arrive, over the mean one of a rover that drives an oracle's route; differences are in pairs.
+the trials that truly arrive, with what is left to the goal, over the mean one of a rover that drives an oracle's route, or
+over the straight one; differences are in pairs.
 Writes remedies.csv and remedies.md.
 
     scripts/studies/course/remedies.py [--navigators gestalt] [--courses wall_3] [--trials 40] [--threads 2]
@@ -75,7 +76,12 @@ def oracle_way(args, name):
         return WAYS.get(name)
     run = study.run_scenario(args, course.COURSES / f"{name}.json", args.out / name / "oracle",
                              [PATIENCE, "navigation.navigator=route", "course.route_map.source=oracle"])
-    return run.counted["true_distance_m"].mean()
+    return way_of(run).mean()
+
+
+def way_of(run):
+    """The way of each trial and what is left to the goal, m: rovers stop at different distances from it."""
+    return run.counted["true_distance_m"] + run.counted["true_goal_distance_m"]
 
 
 def pair(row, prefix, first, second):
@@ -94,7 +100,7 @@ def course_rows(args, name, navigator):
     rows = []
     for arm, run in runs.items():
         arrived = run.ended("goal_reached")
-        ways = run.counted["true_distance_m"][arrived]
+        ways = way_of(run)[arrived]
         way_m = ways.mean() if arrived.any() else float("nan")
         row = {"course": name, "navigator": navigator, "arm": arm, "trials": len(arrived)}
         row |= zip(("arrive", "arrive_low", "arrive_high"), (100.0 * part for part in run.true_success))
