@@ -3,10 +3,10 @@
 
 Remedies are those of scenarios/navigation/remedied.json. GESTALT and the behaviour controller drive as on the page of
 courses (course.py), CSOD and CSAD as in scenarios/continuous with the course's ground, goal and referee. Beside the
-courses there are a zig-zag of five waypoints, a cross-slope of 12 degrees over 15 m, and, for CSAD, empty slopes of 0 to
-12 degrees up, down and across. All arms have 40 m of patience, the same seeds and so the same noise. A way is that of
-the trials that truly arrive, with what is left to the goal, over the mean one of a rover that drives an oracle's route, or
-over the straight one; differences are in pairs.
+courses there are the rocks of those scenarios, a zig-zag of five waypoints, a cross-slope of 12 degrees over 15 m, and,
+for CSAD, empty slopes of 0 to 12 degrees up, down and across. All arms have 40 m of patience, the same seeds and so the
+same noise. A way is that of the trials that truly arrive, with what is left to the goal, over the mean one of a rover
+that drives an oracle's route, or over the straight one; differences are in pairs.
 Writes remedies.csv and remedies.md.
 
     scripts/studies/course/remedies.py [--navigators gestalt] [--courses wall_3] [--trials 40] [--threads 2]
@@ -21,23 +21,32 @@ import study  # noqa: E402
 from course import course  # noqa: E402
 
 GESTALT = "navigation.gestalt.remedies"
-REMEDIES = {name: f"{GESTALT}.{name}.enabled=true" for name in ("cost_to_go", "turn_first", "stop_to_turn", "against_drift")}
+REMEDIES = {name: f"{GESTALT}.{name}.enabled=true"
+            for name in ("cost_to_go", "turn_first", "stop_to_turn", "against_drift")}
 REMEDIES["plane"] = "perception.cloud_elevations.frame=plane"
 # Those that can do anything: wheels measure no drift, and only splines cannot turn in place.
 OF = {"gestalt": ("cost_to_go", "turn_first"), "csod": ("cost_to_go", "turn_first", "against_drift"),
       "csad": ("cost_to_go", "turn_first", "stop_to_turn", "against_drift"), "behaviour": ("plane",)}
 PATIENCE = "referee.no_path_distance_m=40"
+ROCKS = {"gestalt": study.ROOT / "scenarios/gestalt/viking_lander_2.json"}
+ROCKS |= {navigator: study.ROOT / f"scenarios/continuous/{navigator}.json" for navigator in ("csod", "csad")}
 WALLS = ("cul_de_sac", "wall_3", "wall_6", "slalom", "ditch")  # an oracle has to plan on these
 OPEN = ("goal_behind", "goal_abeam", "zigzag", "across_12")
-COURSES = {"gestalt": WALLS + OPEN[:2], "csod": WALLS[:4] + OPEN, "csad": WALLS[:4] + OPEN,
-           "behaviour": ("slope_8", "cross_slope", "across_12")}
+COURSES = {"gestalt": (*WALLS, *OPEN[:2], "rocks"), "csod": (*WALLS[:4], *OPEN, "rocks"),
+           "csad": (*WALLS[:4], *OPEN, "rocks"),
+           "behaviour": ("slope_8", "cross_slope", "short_12")}
+SAGS = "across_12"  # how far aside of the straight way rovers come there
 EMPTY = {"arena": {"kind": "open", "x_min_m": -8, "length_m": 32, "width_m": 16}, "rocks": {"kind": "none"}}
+SAND = {"dead_reckoning": {"distance_scale": 0.995}}  # the odometer of the courses
 OWN = {"zigzag": {"terrain": EMPTY, "course": {"waypoints": {"x_m": [3, 6, 9, 12], "y_m": [1.5, -1.5, 1.5, -1.5]},
                                                "goal_x_m": 15}},
-       "across_12": {"terrain": EMPTY | {"ground": {"slope_deg": 12, "slope_direction_deg": 90}}, "course": {"goal_x_m": 15}}}
+       "across_12": {"terrain": EMPTY | {"ground": {"slope_deg": 12, "slope_direction_deg": 90}}, "perception": SAND,
+                     "course": {"goal_x_m": 15}}}
+OWN["short_12"] = OWN["across_12"] | {"course": {"goal_x_m": 6}}  # for odometers that see no drift
 WAYS = {"goal_behind": 6.0, "goal_abeam": 6.0, "zigzag": 2 * (1.5**2 + 3**2)**0.5 + 3 * 18**0.5, "across_12": 15.0,
-        "slope_8": 6.0, "cross_slope": 6.0}  # straight ones
+        "slope_8": 6.0, "cross_slope": 6.0, "short_12": 6.0}  # straight ones
 SLOPES = [(slope, direction) for slope in (0, 3, 6, 9, 12) for direction in (0, 90, 180, 270)]
+CIRCLES = 1.25  # times the straight way: no drive on an empty slope has a reason for it
 SLOPE_ARMS = ("papers", "stop_to_turn", "all")
 
 
@@ -50,12 +59,14 @@ def arms_of(navigator):
 
 
 def scenario_of(name, navigator, out):
+    if name == "rocks":
+        return ROCKS[navigator]
     if name not in OWN and navigator in ("gestalt", "behaviour"):
         return course.scenario_of(name, navigator, out)
     base = course.BEHAVIOUR if navigator == "behaviour" else study.ROOT / f"scenarios/continuous/{navigator}.json"
     own = OWN.get(name) or course.read_course(course.COURSES / f"{name}.json")
     scenario = {"extends": str(base), "name": f"{name}_{navigator}"}
-    scenario |= {group: own[group] for group in ("terrain", "course", "referee") if group in own}
+    scenario |= {group: own[group] for group in ("terrain", "perception", "course", "referee") if group in own}
     scenario["terrain"].setdefault("rocks", {"kind": "none"})
     out.mkdir(parents=True, exist_ok=True)
     composed = out / f"{name}_{navigator}.json"
@@ -72,7 +83,7 @@ def drive(args, name, navigator, arm, remedies):
 
 def oracle_way(args, name):
     """Mean way of a rover that is told the shortest one, m."""
-    if name in WAYS or name == "ditch":  # a ditch is no rock, and no oracle sees it
+    if name in WAYS or name in ("ditch", "rocks"):  # a ditch is no rock, and no oracle sees it
         return WAYS.get(name)
     run = study.run_scenario(args, course.COURSES / f"{name}.json", args.out / name / "oracle",
                              [PATIENCE, "navigation.navigator=route", "course.route_map.source=oracle"])
@@ -107,6 +118,10 @@ def course_rows(args, name, navigator):
         row |= {"way_m": way_m, "oracle_m": oracle_m or float("nan"),
                 "way_ratio": way_m / oracle_m if oracle_m else float("nan"),
                 "turned_deg": 57.2957795 * run.counted["turned_in_place_rad"].mean()}
+        row["aside_m"] = float("nan")
+        if name == SAGS:
+            aside_m = [abs(run.trial(int(trial)).trace.position_m[:, 1]).max() for trial in run.counted["trial"]]
+            row["aside_m"] = sum(aside_m) / len(aside_m)
         pair(row, "papers", runs["papers"], run)
         pair(row, "all", runs["all"], run)
         row["other_ends"] = study.others(dict(sorted(run.outcomes.items())), "goal_reached", "simulator_fault", none="")
@@ -129,8 +144,10 @@ def orbit_rows(args):
             runs.append(study.run_scenario(slopes, study.ROOT / "scenarios/continuous/csad.json", folder, settings))
         ended = [run.ended(*study.ARRIVED) for run in runs]
         rate = study.rates.rate(int(sum((~arrived).sum() for arrived in ended)), sum(map(len, ended)))
+        circles = study.rates.rate(int(sum((run.counted["path_ratio"] > CIRCLES).sum() for run in runs)), rate.trials)
         rows.append({"arm": arm, "drives": rate.trials, "never arrive": rate.count,
-                     "95 %": f"{100 * rate.low:.2f}..{100 * rate.high:.2f} %",
+                     f"way above {CIRCLES:g}": circles.count,
+                     "of all (%)": study.with_interval([100.0 * part for part in circles], 2),
                      "largest way (m)": f"{max(run.counted['true_distance_m'].max() for run in runs):.1f}"})
     return rows
 
@@ -156,6 +173,16 @@ def before_and_after(rows):
                         "way over the oracle's", "difference (points)", "way where both arrive (m)"], lines)
 
 
+def aside(rows):
+    """How far aside of the straight way rovers come on a cross-slope."""
+    sags = [row for row in rows if row["course"] == SAGS and row["navigator"] in ("csod", "csad")]
+    arms = list(dict.fromkeys(row["arm"] for row in sags))
+    cells = {(row["navigator"], row["arm"]): f"{row['aside_m']:.2f}" for row in sags}
+    lines = [[navigator, *(cells.get((navigator, arm), "-") for arm in arms)]
+             for navigator in dict.fromkeys(navigator for navigator, arm in cells)]
+    return study.table([f"{SAGS}: largest distance from the straight way, mean (m)"] + arms, lines)
+
+
 def each(rows, navigator):
     arms = list(arms_of(navigator))
     cells = {(row["course"], row["arm"]): row for row in rows if row["navigator"] == navigator}
@@ -178,6 +205,7 @@ def main():
     study.write_csv(args.out / "remedies.csv", rows)
     parts = [before_and_after(rows)]
     parts += [each(rows, navigator) for navigator in args.navigators if len(OF[navigator]) > 1]
+    parts += [aside(rows)] if any(row["course"] == SAGS for row in rows) else []
     if "csad" in args.navigators and not args.courses:
         orbits = orbit_rows(args)
         parts += ["CSAD on empty slopes of 0 to 12 degrees, up, down and across:",
