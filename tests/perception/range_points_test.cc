@@ -157,6 +157,18 @@ TEST(CloudElevationsTest, FromThePlaneSlopesAreFlatAndRocksAreNot) {
   }
 }
 
+// A wall across the far quarter does not tilt the ground before it.
+TEST(CloudElevationsTest, TheGroundBeforeAWallStaysGround) {
+  CloudElevationParams params = Bins();
+  params.frame = ElevationFrame::kPlane;
+  const auto wall = [](double x, double) { return 0.1 * x + (x > 1.2 ? 0.3 : 0.0); };
+  const messages::ElevationScan scan = CloudElevations(Ground(wall), {}, params);
+  for (std::size_t stripe = 0; stripe < 5; ++stripe) {
+    EXPECT_NEAR(scan.points[0][stripe].elevation_m, 0.0, 0.005);
+    EXPECT_NEAR(scan.points[3][stripe].elevation_m, 0.3, 0.005);
+  }
+}
+
 TEST(CloudElevationsTest, ParametersThatLeaveNoGroundAreRefused) {
   for (const char* json : {R"({"far_m": 0.2})", R"({"half_width_m": 0})", R"({"rows": 1})",
                            R"({"stripes": 10})", R"({"quantile": 1.1})", R"({"min_points": 0})"}) {

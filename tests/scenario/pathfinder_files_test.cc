@@ -217,5 +217,20 @@ TEST(LanderMapFilesTest, TheSweepOfRangesMovesTheLanderAlone) {
   }
 }
 
+// The preset switches on every remedy that there is, and nothing else.
+TEST(RemediedFile, SwitchesOnEveryRemedy) {
+  const std::filesystem::path folder = kRoot / "scenarios/continuous";
+  const Scenario remedied =
+      ParseScenario(R"({"extends": ["csad.json", "../navigation/remedied.json"]})", {}, folder);
+  std::set<std::string> every{"perception.cloud_elevations.frame"};
+  for (const core::ParameterInfo& parameter : ListParameters(remedied)) {
+    const bool switches = parameter.path.starts_with("navigation.gestalt.remedies.") &&
+                          parameter.path.ends_with(".enabled");
+    if (switches) every.insert(parameter.path);
+  }
+  EXPECT_EQ(every.size(), 5U);
+  EXPECT_EQ(Differences(LoadScenario(folder / "csad.json"), remedied), every);
+}
+
 }  // namespace
 }  // namespace rockyard::scenario

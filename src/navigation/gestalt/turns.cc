@@ -33,7 +33,7 @@ double RemedyTurns::First(const GoodnessGrid& grid, const PlanOrigin& origin, co
                           const WayToGo& way) const {
   const TurnFirstParams& first = params_.remedies.turn_first;
   if (!first.enabled) return 0.0;
-  const double angle_rad = BestTurn(grid, origin.pose, goal, way).angle_rad;
+  const double angle_rad = BestTurn(Sensible(), grid, origin.pose, goal, way).angle_rad;
   return std::abs(angle_rad) > first.bearing_rad ? angle_rad : 0.0;
 }
 
@@ -42,10 +42,12 @@ double RemedyTurns::InsteadOf(const messages::Spline* best, double turned_rad,
                               const WayToGo& way) const {
   const StopToTurnParams& stops = params_.remedies.stop_to_turn;
   if (!stops.enabled) return 0.0;
-  const Turn turn = BestTurn(grid, origin.pose, goal, way);
-  const bool out_of_reach = best == nullptr || turned_rad > stops.orbit_turn_rad ||
-                            LiesInsideTightestCircle(origin.pose, goal);
-  if (out_of_reach) return turn.angle_rad;
+  const bool orbits = turned_rad > stops.orbit_turn_rad;
+  const Turn turn =
+      BestTurn(orbits ? Directions::kAllRound : Sensible(), grid, origin.pose, goal, way);
+  if (orbits || best == nullptr || LiesInsideTightestCircle(origin.pose, goal)) {
+    return turn.angle_rad;
+  }
   const double length_m =
       std::min(params_.splines.waypoint_m, TowardsGoal(origin.pose, goal).distance_m);
   const math::Pose2 end = AlongSpline(Planar(origin.pose), *best, 0.0, length_m, law_);
@@ -53,10 +55,17 @@ double RemedyTurns::InsteadOf(const messages::Spline* best, double turned_rad,
   return saves_m > stops.saves_m ? turn.angle_rad : 0.0;
 }
 
-RemedyTurns::Turn RemedyTurns::BestTurn(const GoodnessGrid& grid, const PoseEstimate& pose,
-                                        const Goal& goal, const WayToGo& way) const {
+RemedyTurns::Directions RemedyTurns::Sensible() const {
+  return params_.remedies.cost_to_go.enabled ? Directions::kAllRound : Directions::kTowardsGoal;
+}
+
+RemedyTurns::Turn RemedyTurns::BestTurn(Directions directions, const GoodnessGrid& grid,
+                                        const PoseEstimate& pose, const Goal& goal,
+                                        const WayToGo& way) const {
   const GoalDirection direct = TowardsGoal(pose, goal);
-  const double length_m = std::min(0.5 * params_.plan.plan_max_dist_m, direct.distance_m);
+  // A searched way bends at any place; a straight one is to be open as far as paths are judged.
+  const double share = directions == Directions::kAllRound ? 0.5 : 1.0;
+  const double length_m = std::min(share * params_.plan.plan_max_dist_m, direct.distance_m);
   Turn best{.way_m = std::numeric_limits<double>::infinity()};
   const auto consider = [&](double angle_rad) {
     PoseEstimate turned = pose;
@@ -70,6 +79,7 @@ RemedyTurns::Turn RemedyTurns::BestTurn(const GoodnessGrid& grid, const PoseEsti
     if (hazard.goodness > params_.drive.min_drive_goodness) best = {angle_rad, way_m};
   };
   consider(direct.bearing_rad);
+  if (directions == Directions::kTowardsGoal) return best;
   for (int i = 0; i < kDirections; ++i) {
     // From straight ahead to either side, so that the smaller of equal turns is taken.
     const double side = i % 2 == 0 ? 1.0 : -1.0;

@@ -37,9 +37,14 @@ class RemedyTurns {
     double way_m = 0.0;
   };
 
+  // Where turns may lead. Without a way that was searched all round is no good rule: before a wall
+  // the shortest way leads back to its middle, whichever way the rover has gone.
+  enum class Directions { kTowardsGoal, kAllRound };
+  Directions Sensible() const;
+
   // Returns the turn after which the way is shortest, of those after which nothing that is known
-  // blocks the straight drive; no turn if there is none.
-  Turn BestTurn(const GoodnessGrid& grid, const messages::PoseEstimate& pose,
+  // blocks the straight drive; no turn, and an endless way, if there is none.
+  Turn BestTurn(Directions directions, const GoodnessGrid& grid, const messages::PoseEstimate& pose,
                 const messages::Goal& goal, const WayToGo& way) const;
   bool LiesInsideTightestCircle(const messages::PoseEstimate& pose,
                                 const messages::Goal& goal) const;

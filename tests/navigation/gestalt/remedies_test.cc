@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "drive.h"
+#include "grids.h"
 #include "navigation/gestalt/drift.h"
+#include "navigation/gestalt/turns.h"
 
 namespace rockyard::navigation {
 namespace {
@@ -88,6 +91,51 @@ TEST(GestaltRemedies, AgainstDriftKeepsToTheLine) {
   EXPECT_LT(LargestSag_m(true), 0.6 * sag_m);
 }
 
+// The turn in place instead of a spline that goes straight on.
+double TurnInsteadOfStraight(const GoodnessGrid& grid, const messages::Goal& goal,
+                             double turned_deg = 0.0) {
+  GestaltParams params;
+  params.remedies.stop_to_turn.enabled = true;
+  WayToGo way(params);
+  way.Plan(grid, goal);
+  const messages::Spline straight{.length_m = 3.0};
+  return RemedyTurns(params).InsteadOf(&straight, math::DegToRad(turned_deg), grid, {}, goal, way);
+}
+
+TEST(RemedyTurnsTest, ReplaceASplineThatWastesWayOrCircles) {
+  const GoodnessGrid open = UniformGrid(kGood);
+  const double abeam = 0.5 * std::numbers::pi;
+  // Straight on to a goal abeam wastes 3 + hypot(3, 3) - 3 m; to one nearly ahead hardly anything.
+  EXPECT_NEAR(TurnInsteadOfStraight(open, {0.0, 3.0}), abeam, 1e-9);
+  EXPECT_NEAR(TurnInsteadOfStraight(open, {0.0, -3.0}), -abeam, 1e-9);
+  EXPECT_EQ(TurnInsteadOfStraight(open, {4.0, 0.4}), 0.0);
+  EXPECT_NEAR(TurnInsteadOfStraight(open, {4.0, 0.4}, 361.0), std::atan2(0.4, 4.0), 1e-9);
+  // Within 0.75 m of (0, 1) no circle of 1 m touches the disc of the goal, though the way is short.
+  EXPECT_NEAR(TurnInsteadOfStraight(open, {0.25, 0.35}), std::atan2(0.35, 0.25), 1e-9);
+  EXPECT_EQ(TurnInsteadOfStraight(open, {0.3, 0.1}), 0.0);
+  // A rock stands between: the spline is driven, unless it only circles.
+  const GoodnessGrid rock = GridWithDisc(0.0, 1.5, 0.5);
+  EXPECT_EQ(TurnInsteadOfStraight(rock, {0.0, 3.0}), 0.0);
+  EXPECT_GT(TurnInsteadOfStraight(rock, {0.0, 3.0}, 361.0), 0.5 * abeam);
+}
+
+// Turning counts from the last gain, and from the last rest.
+TEST(ProgressTest, CountsTurningWithoutProgress) {
+  Progress progress(GestaltDriveParams{});
+  progress.BeginCycle(10.0);
+  for (const double heading_rad : {0.0, 1.0, -1.0}) progress.CountTurn(heading_rad);
+  EXPECT_EQ(progress.turned_rad(), 3.0);
+  progress.BeginCycle(9.9);
+  EXPECT_EQ(progress.turned_rad(), 3.0);
+  progress.BeginCycle(9.0);
+  EXPECT_EQ(progress.turned_rad(), 0.0);
+  progress.CountTurn(0.5);
+  EXPECT_EQ(progress.turned_rad(), 1.5);
+  progress.Rest();
+  progress.CountTurn(3.0);
+  EXPECT_EQ(progress.turned_rad(), 0.0);
+}
+
 TEST(DriftTest, IsTheSidewaysShareOfTheWay) {
   Drift drift({.enabled = true, .memory_m = 1.0});
   messages::PoseEstimate rover;
@@ -100,6 +148,12 @@ TEST(DriftTest, IsTheSidewaysShareOfTheWay) {
   // Downhill is to the other side of a rover that has turned about, and ahead of one that faces it.
   EXPECT_NEAR(drift.Angle_rad(math::DegToRad(180.0)), std::atan(0.2), 1e-3);
   EXPECT_NEAR(drift.Angle_rad(math::DegToRad(-90.0)), 0.0, 1e-12);
+  // Two metres without any, and what was before counts e^-2.
+  for (int i = 0; i < 20; ++i) {
+    rover.distance_m += 0.1;
+    drift.Correct(rover, 0.0);
+  }
+  EXPECT_NEAR(drift.Angle_rad(0.0), std::atan(-0.2 * std::exp(-2.0)), 1e-3);
 }
 
 }  // namespace

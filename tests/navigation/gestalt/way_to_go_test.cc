@@ -10,6 +10,7 @@
 
 #include "core/random.h"
 #include "grids.h"
+#include "navigation/gestalt/way_votes.h"
 
 namespace rockyard::navigation {
 namespace {
@@ -160,6 +161,83 @@ TEST(WayToGoTest, RemembersWhatItHasSeen) {
     way.Plan(UniformGrid(kGood), {3.0, 0.0});
     EXPECT_NEAR(way.From_m(0.0, 0.0), 3.0, 0.1);
   }
+}
+
+// A metre costs 1 at goodness 255, rough_cost just above what may not be driven, linearly between,
+// and blocked_cost from there on.
+TEST(WayToGoTest, CostsByGoodness) {
+  GestaltParams params;
+  params.remedies.cost_to_go.enabled = true;
+  params.remedies.cost_to_go.rough_cost = 3.0;
+  params.remedies.cost_to_go.blocked_cost = 7.0;
+  for (const auto& [goodness, cost] : {std::pair{255, 1.0}, {102, 2.2}, {11, 2.914}, {10, 7.0}}) {
+    WayToGo way(params);
+    way.Plan(UniformGrid({static_cast<std::uint8_t>(goodness), 255, true}), {3.0, 0.0});
+    EXPECT_NEAR(way.From_m(0.0, 0.0), 3.0 * cost, 0.01 * cost) << goodness;
+  }
+}
+
+const messages::MotionVote& Straight(const std::vector<messages::MotionVote>& arcs) {
+  return arcs[arcs.size() / 2];
+}
+
+// Ahead, backward, and after a turn in place by 90 deg, with 1.5 m of each driven and a vote of 0
+// where 4 m are lost.
+TEST(WayVoterTest, VotesFallWithTheWayThatIsLost) {
+  GestaltParams params;
+  params.votes.whole_numbers = false;
+  params.remedies.cost_to_go.enabled = true;
+  params.remedies.cost_to_go.loss_m = 4.0;
+  const GoodnessGrid grid = UniformGrid(kGood);
+  const messages::Goal goal{4.0, 0.0};
+  WayToGo way(params);
+  way.Plan(grid, goal);
+  MotionVotes votes = ArcVoter(params).Vote(grid, {}, goal);
+  WayVoter(params).Vote({}, goal, way, votes);
+  EXPECT_NEAR(Straight(votes.forward).waypoint, 255.0, 1.0);
+  EXPECT_NEAR(Straight(votes.backward).waypoint, 255.0 * (1.0 - 3.0 / 4.0), 2.0);
+  const double aside_m = 1.5 + std::hypot(4.0, 1.5);
+  for (const messages::MotionVote& turn : votes.point_turns) {
+    EXPECT_NEAR(turn.waypoint, 255.0 * (1.0 - (aside_m - 4.0) / 4.0), 5.0);
+    EXPECT_NEAR(turn.merged, (255.0 * 255.0 + 192.0 * turn.waypoint) / (255.0 + 192.0), 1e-9);
+  }
+}
+
+// What may not be driven is no best motion: those that may be have the best vote.
+TEST(WayVoterTest, TheBestIsOneThatMayBeDriven) {
+  GestaltParams params;
+  params.remedies.cost_to_go.enabled = true;
+  params.remedies.cost_to_go.blocked_cost = 1.0;  // the way leads through the rock
+  const GoodnessGrid grid = GridWithDisc(1.2, 0.0, 0.5);
+  const messages::Goal goal{4.0, 0.0};
+  WayToGo way(params);
+  way.Plan(grid, goal);
+  MotionVotes votes = ArcVoter(params).Vote(grid, {}, goal);
+  WayVoter(params).Vote({}, goal, way, votes);
+  ASSERT_EQ(Straight(votes.forward).hazard, 0.0);
+  double best = 0.0;
+  for (const messages::MotionVote& arc : votes.forward) {
+    if (arc.hazard > params.drive.min_drive_goodness) best = std::max(best, arc.waypoint);
+  }
+  EXPECT_EQ(best, 255.0);
+}
+
+// Splines by the same rule: straight on, and one that turns aside.
+TEST(WayVoterTest, VotesOnSplines) {
+  GestaltParams params;
+  params.votes.whole_numbers = false;
+  params.remedies.cost_to_go.enabled = true;
+  const messages::Goal goal{9.0, 0.0};
+  const GoodnessGrid grid = UniformGrid(kGood);
+  WayToGo way(params);
+  way.Plan(grid, goal);
+  SplineVotes votes(2);
+  votes[0] = {.spline = {.length_m = 3.0}, .hazard = 255.0, .feasible = true};
+  votes[1] = {.spline = {1.0, 1.0, 1.0, 3.0}, .hazard = 255.0, .feasible = true};
+  WayVoter(params).Vote({}, goal, way, votes);
+  const double ends_m = std::hypot(9.0 - std::sin(3.0), 1.0 - std::cos(3.0));
+  EXPECT_EQ(votes[0].waypoint, 255.0);
+  EXPECT_NEAR(votes[1].waypoint, 255.0 * (1.0 - (ends_m - 6.0) / 3.0), 10.0);
 }
 
 }  // namespace
