@@ -83,7 +83,8 @@ RemedyTurns::Turn RemedyTurns::BestTurn(Directions directions, const GoodnessGri
   for (int i = 0; i < kDirections; ++i) {
     // From straight ahead to either side, so that the smaller of equal turns is taken.
     const double side = i % 2 == 0 ? 1.0 : -1.0;
-    consider(side * ((i + 1) / 2) * 2.0 * std::numbers::pi / kDirections);
+    const int steps = (i + 1) / 2;
+    consider(side * steps * 2.0 * std::numbers::pi / kDirections);
   }
   return best;
 }
