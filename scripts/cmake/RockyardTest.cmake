@@ -10,7 +10,8 @@
 #   its folder, as in tests/navigation. HELPERS are compiled but hold no tests.
 #
 # rockyard_test_helpers(NAME SOURCES file ... [DEPENDS module ...])
-#   Helpers of several programs, compiled once: an object library to name under their LIBRARIES.
+#   Helpers of several programs, compiled once and optimized (pictures that they paint take longer than what is
+#   tested): an object library to name under their LIBRARIES.
 #
 # rockyard_command_test(NAME KIND TIER COMMAND...)
 #   A test that is no GoogleTest, with the same labels: KIND in capitals, TIER is FAST, FULL or LONG.
@@ -108,6 +109,8 @@ function(rockyard_test NAME)
   list(TRANSFORM ARG_DEPENDS PREPEND rockyard_ OUTPUT_VARIABLE dependencies)
   rockyard_batches(${NAME} "${sources}" compiled)
   add_executable(${NAME} ${compiled} ${ARG_HELPERS})
+  set_source_files_properties(${compiled} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  rockyard_set_unity(${NAME})  # the helpers
   target_compile_options(${NAME} PRIVATE ${ROCKYARD_WARNINGS} ${ROCKYARD_TEST_OPTIMIZATION})
   target_include_directories(${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(${NAME} PRIVATE ROCKYARD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
@@ -132,7 +135,7 @@ function(rockyard_test_helpers NAME)
   endif()
   list(TRANSFORM ARG_DEPENDS PREPEND rockyard_ OUTPUT_VARIABLE dependencies)
   add_library(${NAME} OBJECT EXCLUDE_FROM_ALL ${ARG_SOURCES})
-  target_compile_options(${NAME} PRIVATE ${ROCKYARD_WARNINGS} ${ROCKYARD_TEST_OPTIMIZATION})
+  target_compile_options(${NAME} PRIVATE ${ROCKYARD_WARNINGS})
   target_include_directories(${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(${NAME} PRIVATE ${dependencies})
 endfunction()

@@ -3,12 +3,12 @@
 // its table 1, by an independent algorithm.
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
+#include "math/decompositions.h"
 #include "navigation/gestalt/goodness_grid.h"
 #include "navigation/gestalt/map_params.h"
 #include "navigation/gestalt/splines.h"
@@ -87,9 +87,9 @@ class ReferenceMap {
       Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
       for (const math::Vector3& q : all) covariance += (q - mean) * (q - mean).transpose();
       covariance /= static_cast<double>(all.size());
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-      const Eigen::Vector3d values = solver.eigenvalues();
-      const math::Vector3 normal = solver.eigenvectors().col(0);
+      const math::SingularValues eigen = math::SingularValuesOf(covariance);  // is not negative
+      const Eigen::Vector3d values = eigen.values.reverse();
+      const math::Vector3 normal = eigen.U.col(2);
       std::size_t worst = 0;
       double farthest = -1.0;
       for (std::size_t i = 0; i < cells.size(); ++i) {
