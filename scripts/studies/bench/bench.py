@@ -97,7 +97,7 @@ def main():
     heat_map(study.read_csv(table / "cells.csv"), args.out / "bench.svg")
     standings, groups = (table / "bench.md").read_text(encoding="utf-8").split("\n\n")
     tables = {"standings": standings, "groups": groups.strip(), "ends": ends_table(study.read_csv(table / "ends.csv"))}
-    study.write_tables(args.markdown, tables) if args.markdown else print("\n\n".join(tables.values()))
+    study.show(args, tables)
 
 
 if __name__ == "__main__":
