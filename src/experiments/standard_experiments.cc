@@ -2,6 +2,7 @@
 // resolved scenarios have the groups of parameters; every fingerprint depends on it, and changes
 // where one with parameters is added. The first one is chosen by default.
 
+#include "experiments/arc_planning/arc_planning.h"
 #include "experiments/cylinder_sighting/cylinder_sighting.h"
 #include "experiments/dead_reckoning/dead_reckoning.h"
 #include "experiments/designation/designation.h"
@@ -64,6 +65,8 @@ ExperimentSet StandardExperiments() {
        },
        CylinderSightingColumns});
   set.Add<MissionParams>({"mission", RequireMission, Make<MissionExperiment>, MissionColumns});
+  set.Add<ArcPlanningParams>(
+      {"arc_planning", RequireArcPlanning, Make<ArcPlanningExperiment>, ArcPlanningColumns});
   return set;
 }
 

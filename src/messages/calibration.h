@@ -31,6 +31,19 @@ struct DriveCalibration {
   double max_wheel_speed_m_s = 0.15;  ///< rim speed of the fastest wheel
 };
 
+/// The rocker-bogie and the underside of the chassis as the rover stands on level ground, in R;
+/// both sides are alike.
+struct SuspensionBelief {
+  bool bogies_at_front = false;  ///< the end that stands on the bogies, two wheels a side
+  double rocker_pivot_x_m = 0.0;
+  double rocker_pivot_z_m = 0.0;
+  double bogie_pivot_x_m = 0.0;
+  double bogie_pivot_z_m = 0.0;
+  double pivot_y_m = 0.0;       ///< of the rocker pivots from the middle plane
+  double belly_length_m = 0.0;  ///< of the underside, centred
+  double belly_width_m = 0.0;
+};
+
 /// What the rover believes of its body, beside its wheels. Lengths are those of the design; a
 /// scenario states no errors of them.
 struct RoverBelief {
@@ -42,6 +55,7 @@ struct RoverBelief {
   double max_rocker_rad = 0.0;  ///< stops of the passive joints, either way
   double max_bogie_rad = 0.0;
   double max_tilt_rad = 0.0;  ///< above it the rover feels a hazard (perception.vehicle_hazard)
+  SuspensionBelief suspension = {};  ///< plugins and processes are not told
 };
 
 /// One laser fan: the directions from the emitter within half_fan of axis_R, in the light plane

@@ -138,9 +138,9 @@ class NavigatorSet : public core::KindSet<NavigatorKind> {
   };
 };
 
-/// Returns rockyard's own navigators: pathfinder (chosen), gestalt, route. Scenarios that name none
-/// drive with the first. Names and order must stay: scenario files and stored runs hold the names,
-/// and fingerprints depend on the order.
+/// Returns rockyard's own navigators: pathfinder (chosen), gestalt, route, enav. Scenarios that
+/// name none drive with the first. Names and order must stay: scenario files and stored runs hold
+/// the names, and fingerprints depend on the order.
 NavigatorSet StandardNavigators();
 
 }  // namespace rockyard::navigation

@@ -1,3 +1,4 @@
+#include "navigation/enav/enav.h"
 #include "navigation/gestalt/gestalt.h"
 #include "navigation/navigator_set_params.h"
 #include "navigation/pathfinder/pathfinder.h"
@@ -12,6 +13,7 @@ NavigatorSet StandardNavigators() {
   set.Add(DescribePathfinder());
   set.Add(DescribeGestalt());
   set.Add(DescribeRouteFollower());
+  set.Add(DescribeEnav());
   return set;
 }
 

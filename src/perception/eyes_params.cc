@@ -57,9 +57,21 @@ void CloudElevationParams::Visit(core::FieldVisitor& v) {
   v.Integer("min_points", min_points,
             Assumed("points from which a bin counts as seen", "one stray point is no ground",
                     {1, 100000}, {1, 10}));
-  v.Choice("frame", frame,
-           Assumed("frame in which heights count",
-                   "over a metre, a pitch of 7 deg is as high as the clearance"));
+  v.Choice(
+      "frame", frame,
+      Assumed("frame in which heights count",
+              "over a metre, a pitch of 7 deg is as high as the clearance; so is a slope, from "
+              "the level"));
+  v.Real(
+      "plane_outlier_m", plane_outlier_m,
+      Assumed("frame plane: points that stand out from the plane by more are left out of it, one "
+              "fit after the other",
+              "half of the clearance: rocks that matter are not to tilt the ground", {0.001, 10.0},
+              {0.05, 0.2}));
+  v.Angle("max_plane_deg", max_plane_rad,
+          Assumed("frame plane: slope of the plane from which on heights count from the level",
+                  "ground that is too steep is to be a hazard: GESTALT's max_pitch_deg",
+                  {0.0, 90.0}, {15.0, 30.0}));
 }
 
 using core::Assumed;

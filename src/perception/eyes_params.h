@@ -29,6 +29,7 @@ struct StereoMatchingParams {
 enum class ElevationFrame {
   kRover,  // R, as the light stripe sensor has it: a rover that tilts sees the ground tilted
   kLevel,  // R turned level by the attitude estimate
+  kPlane,  // from the plane of the ground ahead: a smooth slope is no step
 };
 
 struct CloudElevationParams {
@@ -40,6 +41,8 @@ struct CloudElevationParams {
   double quantile = 1.0;
   std::int64_t min_points = 3;
   ElevationFrame frame = ElevationFrame::kLevel;
+  double plane_outlier_m = 0.1;
+  double max_plane_rad = math::DegToRad(25.0);
 
   void Visit(core::FieldVisitor& v);
 };
@@ -65,5 +68,5 @@ struct VisualMotionParams {
 
 template <>
 struct rockyard::core::EnumNames<rockyard::perception::ElevationFrame> {
-  static constexpr std::array<std::string_view, 2> kNames{"rover", "level"};
+  static constexpr std::array<std::string_view, 3> kNames{"rover", "level", "plane"};
 };

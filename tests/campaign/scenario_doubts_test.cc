@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "core/files.h"
+#include "core/json_text.h"
 #include "core/test_folder.h"
 #include "scenario/load.h"
 #include "scenario/sweep.h"
@@ -291,14 +293,19 @@ TEST(ScenarioDoubts, NoneOfRoversOfAnotherSizeThatAreWhole) {
   }
 }
 
+bool IsSweepFile(const fs::path& file) {
+  return scenario::IsSweep(
+      core::ParseJson(core::ReadTextFile(file, 1 << 20, "a file"), file.string()));
+}
+
 // Nobody's first run begins with doubts of ours.
 TEST(ScenarioDoubts, NoneOfTheScenariosThatComeWithRockyard) {
   int files = 0;
   for (const auto& entry :
        fs::recursive_directory_iterator(std::string(ROCKYARD_SOURCE_DIR) + "/scenarios")) {
     const std::string folder = entry.path().parent_path().filename().string();
-    if (entry.path().extension() != ".json" || folder == "sweeps" || folder == "rovers" ||
-        folder == "sensors" || folder == "navigation") {
+    if (entry.path().extension() != ".json" || folder == "rovers" || folder == "sensors" ||
+        folder == "navigation" || IsSweepFile(entry.path())) {
       continue;
     }
     ++files;
@@ -341,8 +348,8 @@ TEST(DoubtsOfSweeps, TheNameIsTheSweeps) {
 TEST(DoubtsOfSweeps, NoneOfThoseThatComeWithRockyard) {
   int files = 0;
   for (const auto& entry :
-       fs::directory_iterator(std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/sweeps")) {
-    if (entry.path().extension() != ".json") continue;
+       fs::recursive_directory_iterator(std::string(ROCKYARD_SOURCE_DIR) + "/scenarios")) {
+    if (entry.path().extension() != ".json" || !IsSweepFile(entry.path())) continue;
     ++files;
     for (const core::Problem& doubt : DoubtsOf(scenario::LoadSweep(entry.path()))) {
       ADD_FAILURE() << entry.path() << ": " << TextOf(doubt);

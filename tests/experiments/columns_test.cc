@@ -112,11 +112,15 @@ scenario::Scenario CrowdedScenario() {
                      "referee.time_limit_s=100"});
 }
 
+// Own values of navigators follow.
+constexpr std::size_t kOwnValues = 4;
+
 TEST(DriveExperimentTest, SchemaListsTheColumnsInOrder) {
   const auto experiment = MakeExperiment(Pathfinder("level_sand"));
   const truth::RecordSchema& schema = experiment->schema();
-  ASSERT_EQ(schema.size(), truth::kDriveColumns.size());
-  for (std::size_t i = 0; i < schema.size(); ++i) {
+  ASSERT_EQ(schema.size(), truth::kDriveColumns.size() + kOwnValues);
+  EXPECT_EQ(schema[truth::kDriveColumns.size()].name, "enav.cycles");
+  for (std::size_t i = 0; i < truth::kDriveColumns.size(); ++i) {
     EXPECT_EQ(schema[i].name, truth::kDriveColumns[i].name);
     EXPECT_EQ(schema[i].unit, truth::kDriveColumns[i].unit);
     EXPECT_EQ(schema[i].meaning, truth::kDriveColumns[i].meaning);
@@ -130,8 +134,8 @@ TEST(DriveExperimentTest, RecordHoldsTheDriveBitForBit) {
   EXPECT_EQ(record.trial, 3u);
   EXPECT_EQ(record.outcome, drive.outcome);
   EXPECT_EQ(record.detail, drive.detail);
-  ASSERT_EQ(record.values.size(), truth::kDriveColumns.size());
-  for (std::size_t i = 0; i < record.values.size(); ++i) {
+  ASSERT_EQ(record.values.size(), truth::kDriveColumns.size() + kOwnValues);
+  for (std::size_t i = 0; i < truth::kDriveColumns.size(); ++i) {
     EXPECT_EQ(std::bit_cast<std::uint64_t>(record.values[i]),
               std::bit_cast<std::uint64_t>(drive.record.*truth::kDriveColumns[i].member))
         << truth::kDriveColumns[i].name;
@@ -146,7 +150,7 @@ TEST(DriveExperimentTest, FaultsAreRecordsThatNameSeedAndIndex) {
     const truth::Record record = experiment->Run(1, index);
     EXPECT_EQ(record.trial, index);
     if (record.outcome != truth::TrialOutcome::kSimulatorFault) {
-      EXPECT_EQ(record.values.size(), truth::kDriveColumns.size());
+      EXPECT_EQ(record.values.size(), truth::kDriveColumns.size() + kOwnValues);
       ++drives;
       continue;
     }
@@ -179,7 +183,7 @@ TEST(DriveExperimentTest, EveryValueIsFinite) {
     for (std::uint64_t index = 0; index < 2; ++index) {
       const truth::Record record = experiment->Run(7, index);
       ASSERT_NE(record.outcome, truth::TrialOutcome::kSimulatorFault) << record.detail;
-      for (std::size_t i = 0; i < record.values.size(); ++i) {
+      for (std::size_t i = 0; i < truth::kDriveColumns.size(); ++i) {
         // Of the columns that may lack a value these drives have a path ratio at most: no filter
         // and no rock at the goal.
         const truth::DriveColumn& column = truth::kDriveColumns[i];

@@ -83,7 +83,7 @@ NavigatorStatus StatusAt(const NavigatorKind& kind, double time_s, double goal_x
 
 TEST(NavigatorSet, TheStandardOneBeginsWithTheBehaviourController) {
   const NavigatorSet set = StandardNavigators();
-  EXPECT_THAT(set.names(), ElementsAre("pathfinder", "gestalt", "route"));
+  EXPECT_THAT(set.names(), ElementsAre("pathfinder", "gestalt", "route", "enav"));
   EXPECT_EQ(set.chosen().name(), "pathfinder");
 }
 

@@ -134,6 +134,41 @@ TEST(CloudElevationsTest, SlopesRaiseNeighbourDifferencesWithTheSpacingOfBins) {
   EXPECT_FALSE(ReportHazards(scan(0.23), criteria).any());
 }
 
+// From its plane a slope is flat, up and across, and a rock on it as high as on the level; as
+// printed, from the level, the slope is a hazard all over. Ground that is too steep stays one.
+TEST(CloudElevationsTest, FromThePlaneSlopesAreFlatAndRocksAreNot) {
+  const auto report = [](ElevationFrame frame, double slope_deg, double rock_m, bool across) {
+    const double tangent = std::tan(math::DegToRad(slope_deg));
+    const PointCloud cloud = Ground([=](double x, double y) {
+      const bool rock = std::hypot(x - 1.0, y - 0.2) < 0.12;
+      return tangent * (across ? y : x) + (rock ? rock_m : 0.0);
+    });
+    CloudElevationParams params = Bins();
+    params.frame = frame;
+    return ReportHazards(CloudElevations(cloud, {}, params), {});
+  };
+  for (const bool across : {false, true}) {
+    EXPECT_TRUE(report(ElevationFrame::kLevel, 15.0, 0.0, across).any());
+    EXPECT_FALSE(report(ElevationFrame::kPlane, 15.0, 0.0, across).any());
+    EXPECT_TRUE(report(ElevationFrame::kPlane, 30.0, 0.0, across).any());
+    const messages::HazardReport rock = report(ElevationFrame::kPlane, 15.0, 0.2, across);
+    EXPECT_EQ(rock.stripe_hazard, report(ElevationFrame::kLevel, 0.0, 0.2, across).stripe_hazard);
+    EXPECT_TRUE(rock.any());
+  }
+}
+
+// A wall across the far quarter does not tilt the ground before it.
+TEST(CloudElevationsTest, TheGroundBeforeAWallStaysGround) {
+  CloudElevationParams params = Bins();
+  params.frame = ElevationFrame::kPlane;
+  const auto wall = [](double x, double) { return 0.1 * x + (x > 1.2 ? 0.3 : 0.0); };
+  const messages::ElevationScan scan = CloudElevations(Ground(wall), {}, params);
+  for (std::size_t stripe = 0; stripe < 5; ++stripe) {
+    EXPECT_NEAR(scan.points[0][stripe].elevation_m, 0.0, 0.005);
+    EXPECT_NEAR(scan.points[3][stripe].elevation_m, 0.3, 0.005);
+  }
+}
+
 TEST(CloudElevationsTest, ParametersThatLeaveNoGroundAreRefused) {
   for (const char* json : {R"({"far_m": 0.2})", R"({"half_width_m": 0})", R"({"rows": 1})",
                            R"({"stripes": 10})", R"({"quantile": 1.1})", R"({"min_points": 0})"}) {

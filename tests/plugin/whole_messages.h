@@ -145,7 +145,8 @@ inline std::map<std::string, double> MembersOf(const navigation::NavigatorInput&
 
 inline void AddRover(const messages::RoverBelief& from, MemberList& list) {
   const auto& [drive, length_m, width_m, belly_clearance_m, wheel_width_m, max_rocker_rad,
-               max_bogie_rad, max_tilt_rad] = from;
+               max_bogie_rad, max_tilt_rad, suspension] = from;
+  static_cast<void>(suspension);  // plugins and processes are not told
   list.Add("rover.length_m", length_m);
   list.Add("rover.width_m", width_m);
   list.Add("rover.belly_clearance_m", belly_clearance_m);

@@ -78,24 +78,32 @@ TEST_P(RoverDescription, TurnsInPlace) {
   EXPECT_LT(state().X_WR.translation().head<2>().norm(), 0.02);
 }
 
-// Onto a vertical step of a wheel radius with all axles.
-TEST_P(RoverDescription, ClimbsAStepOfItsWheelRadius) {
-  const terrain::Terrain step = StepTerrain(params_.geometry.wheel_radius_m);
+// Onto a vertical step of a wheel radius with all axles; of half of it where the rockers come first
+// (rover_geometry_params.cc).
+TEST_P(RoverDescription, ClimbsAStep) {
+  const RoverGeometryParams& geometry = params_.geometry;
+  const double share = geometry.bogie_end == BogieEnd::kFront ? 1.0 : 0.5;
+  const double height_m = share * geometry.wheel_radius_m;
+  const terrain::Terrain step = StepTerrain(height_m);
   StartOn(step);
   // The step begins at x = 0.6.
-  const double all_on_it_m = 0.6 + 0.5 * params_.geometry.wheelbase_m + 0.02;
+  const double ahead_m = 0.5 * geometry.wheelbase_m + geometry.wheel_radius_m;
+  const double start_m = std::min(0.0, 0.55 - ahead_m);
+  rover_->Place({start_m, 0.0, 0.0});
+  const double all_on_it_m = 0.6 + 0.5 * geometry.wheelbase_m + 0.02;
   const messages::WheelCommand command = Drive(params_, speed_m_s_, 0.0);
-  const auto steps = static_cast<int>(2.0 * all_on_it_m / speed_m_s_ / rover_->step_s());
+  const auto steps =
+      static_cast<int>(2.0 * (all_on_it_m - start_m) / speed_m_s_ / rover_->step_s());
   for (int i = 0; i < steps && x() < all_on_it_m; ++i) rover_->Step(command);
   EXPECT_GE(x(), all_on_it_m);
-  EXPECT_NEAR(state().X_WR.translation().z(), params_.geometry.wheel_radius_m,
-              0.1 * params_.geometry.wheel_radius_m);
+  EXPECT_NEAR(state().X_WR.translation().z(), height_m, 0.1 * geometry.wheel_radius_m);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rovers, RoverDescription,
                          testing::Values(Described{"rocky_3_2", 9.81}, Described{"mfex", 9.81},
                                          Described{"mfex", 3.72}, Described{"athena_sdm", 9.81},
-                                         Described{"athena_2012", 9.81}),
+                                         Described{"athena_2012", 9.81},
+                                         Described{"perseverance_like", 3.72}),
                          [](const auto& tested) {
                            return std::string(tested.param.file) +
                                   (tested.param.gravity_m_s2 < 5.0 ? "_mars" : "_earth");

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "core/files.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
 #include "navigation/pathfinder/pathfinder_params.h"
@@ -25,9 +26,12 @@ std::map<std::string, Scenario> LoadAll() {
     if (entry.path().extension() != ".json") continue;
     const std::string folder = entry.path().parent_path().filename().string();
     if (folder == "navigation" || folder == "rovers" || folder == "sensors") continue;  // parts
-    if (folder == "sweeps") continue;  // of scenarios
-    const std::map<std::string, std::string> prefixes = {
-        {"continuous", "continuous_"}, {"courses", "course_"}, {"gestalt", "gestalt_"}};
+    const std::string file = entry.path().string();
+    if (IsSweep(core::ParseJson(core::ReadTextFile(file, 1 << 20, "a file"), file))) continue;
+    const std::map<std::string, std::string> prefixes = {{"bench", "bench_"},
+                                                         {"continuous", "continuous_"},
+                                                         {"courses", "course_"},
+                                                         {"gestalt", "gestalt_"}};
     const auto found = prefixes.find(folder);
     const std::string prefix = found == prefixes.end() ? "" : found->second;
     scenarios.emplace(prefix + entry.path().stem().string(), LoadScenario(entry.path()));
@@ -211,6 +215,21 @@ TEST(LanderMapFilesTest, TheSweepOfRangesMovesTheLanderAlone) {
     scenario.drive.course.designation.lander_ahead_m = 0.0;
     EXPECT_EQ(Fingerprint(scenario), Fingerprint(sweep.cells[i % 4].scenario));
   }
+}
+
+// The preset switches on every remedy that there is, and nothing else.
+TEST(RemediedFile, SwitchesOnEveryRemedy) {
+  const std::filesystem::path folder = kRoot / "scenarios/continuous";
+  const Scenario remedied =
+      ParseScenario(R"({"extends": ["csad.json", "../navigation/remedied.json"]})", {}, folder);
+  std::set<std::string> every{"perception.cloud_elevations.frame"};
+  for (const core::ParameterInfo& parameter : ListParameters(remedied)) {
+    const bool switches = parameter.path.starts_with("navigation.gestalt.remedies.") &&
+                          parameter.path.ends_with(".enabled");
+    if (switches) every.insert(parameter.path);
+  }
+  EXPECT_EQ(every.size(), 5U);
+  EXPECT_EQ(Differences(LoadScenario(folder / "csad.json"), remedied), every);
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 using core::JsonValue;
 
 const fs::path kFolder = fs::path(ROCKYARD_SOURCE_DIR) / "scenarios" / "rovers";
-const std::set<std::string> kRovers = {"athena_2012", "athena_sdm", "mfex", "rocky_3_2"};
+const std::set<std::string> kRovers = {"athena_2012", "athena_sdm", "mfex", "perseverance_like",
+                                       "rocky_3_2"};
 
 // "geometry.length_m" and its value as JSON text, without "extends".
 using Values = std::map<std::string, std::string>;

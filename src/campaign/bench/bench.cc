@@ -44,7 +44,7 @@ CampaignRequest Recording(const BenchRequest& request, const BenchEntry& entry,
   campaign.folder = folder;
   campaign.overrides = entry.settings;
   campaign.seed = seed;
-  campaign.prepare = [folder](std::size_t index, CampaignCell& cell) {
+  campaign.prepare = [folder = fs::absolute(folder)](std::size_t index, CampaignCell& cell) {
     const auto write = [folder, index, name = cell.name](std::uint64_t random_seed,
                                                          const std::string& log) {
       WriteActions(folder / ActionFile(index, name, random_seed), log);
@@ -138,12 +138,12 @@ WorkResult RunBench(const BenchRequest& request, const RunObserver& observer, co
             ? request.campaign.folder
             : DefaultFolder(fmt::format("bench-{}-{}", suite.name, entry->manifest.name),
                             seed.value_or(static_cast<std::int64_t>(suite.seed)));
-    sweep.campaign = Recording(request, *entry, fs::absolute(folder), seed);
+    sweep.campaign = Recording(request, *entry, folder, seed);
     return Outcome::kDone;
   });
   if (result.outcome != Outcome::kDone) return result;
   result = RunSweep(sweep, observer, stop);
-  if (result.outcome != Outcome::kDone) return result;
+  if (result.outcome != Outcome::kDone || !IsFirstRank()) return result;
   const WorkResult closed = Recorded(observer, [&](Journal&) {
     WriteBenchFiles(*entry, suite_digest, request.beacon, sweep.campaign.folder);
     return Outcome::kDone;

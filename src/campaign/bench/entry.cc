@@ -72,6 +72,11 @@ void EntryParams::Visit(core::FieldVisitor& v) {
   v.Text("about", about, Setting("a sentence for readers"));
   v.Text("authors", authors, Setting("who answers for it"));
   v.Require("name", !name.empty(), "is missing", "give the entry a name of a word or two");
+  constexpr std::string_view kLetters =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.+";
+  v.Require("name", name.find_first_not_of(kLetters) == name.npos && name.size() <= 40,
+            "is no name for tables and folders",
+            "use up to 40 letters, digits and the characters _ - . +");
   v.Require("navigator", !navigator.empty(), "is missing",
             "name the navigator as a scenario would in navigation.navigator");
   v.Require("plugin", plugin.empty() || process.empty(), "stands beside a process",

@@ -59,11 +59,12 @@ NavigatorDecision GestaltCycle::Replan(const NavigatorInput& input) {
                   input.estimate);
   // A predicted plan begins on the motion under way, s = s_look + v (t - t_look) along it.
   const bool predicts = params_.continuous.plan_start == PlanStart::kPredicted;
-  const PlanOrigin origin = predicts
-                                ? manoeuvre_.Ahead(seen, plans_.WaySince(*input.look, input.time_s))
-                                : PlanOrigin{input.estimate, manoeuvre_.steered_per_m()};
+  const PlanOrigin origin =
+      MadeGood(predicts ? manoeuvre_.Ahead(seen, plans_.WaySince(*input.look, input.time_s))
+                        : PlanOrigin{input.estimate, manoeuvre_.steered_per_m()});
   evaluation_.Vote(origin, goal_O_, felt_);
-  const NavigatorDecision next = ReplaceMotion(input, origin);
+  const double turn_rad = RemedyTurn(origin);
+  const NavigatorDecision next = turn_rad != 0.0 ? StopToTurn() : ReplaceMotion(input, origin);
   evaluation_.Show(origin, attitude, goal_O_);
   return next;
 }
@@ -90,6 +91,12 @@ NavigatorDecision GestaltCycle::ReplaceMotion(const NavigatorInput& input,
   felt_.ForgetVetoes();
   if (!turns) return BeginDrive(arc->motion, input);
   return Begin(StageOf(turn), turn.motion, std::abs(turn.turn_rad), input);
+}
+
+// At rest the rover votes anew, and turns by what its remedies make of that.
+NavigatorDecision GestaltCycle::StopToTurn() {
+  felt_.ForgetVetoes();
+  return Look(Stage::kLookingAhead);
 }
 
 NavigatorDecision GestaltCycle::OnNoSafePlan() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/angles.h"
 #include "math/pose.h"
 #include "navigation/gestalt/votes.h"
 
@@ -32,7 +33,8 @@ GestaltCycle::GestaltCycle(const GestaltParams& params, const messages::Goal& go
       plans_(params.continuous),
       search_(params),
       progress_(params.drive),
-      felt_(params) {}
+      felt_(params),
+      drift_(params.remedies.against_drift) {}
 
 NavigatorDecision GestaltCycle::Decide(const NavigatorInput& input) {
   // The goal is asked for between steps, or at every tick where the parameters say so.
@@ -73,7 +75,8 @@ void GestaltCycle::OnPoseUpdate(const PoseEstimate& before, const PoseEstimate& 
 }
 
 void GestaltCycle::OnCorrection(const PoseEstimate& before_O, const PoseEstimate& after_O,
-                                const messages::Goal& goal_O) {
+                                const messages::Goal& goal_O, double left_m) {
+  drift_.Correct(after_O, left_m);
   const double before_m = DistanceToGoal_m(before_O);
   goal_O_ = goal_O;
   progress_.Shift(DistanceToGoal_m(after_O) - before_m);
@@ -103,9 +106,15 @@ NavigatorDecision GestaltCycle::OnCloud(const NavigatorInput& input) {
   const bool ahead = input.cloud->direction == LookDirection::kAhead;
   // An answer to a look that a pose update has overtaken.
   if (!ahead && stage_ == Stage::kLookingAhead) return Look(stage_);
-  const PlanOrigin origin{input.estimate, manoeuvre_.steered_per_m()};
+  const PlanOrigin origin = MadeGood({input.estimate, manoeuvre_.steered_per_m()});
   evaluation_.See(*input.cloud, BelievedPose(input), input.estimate);
   evaluation_.Vote(origin, goal_O_, felt_);
+  const double turn_rad = RemedyTurn(origin);
+  progress_.Rest();
+  if (turn_rad != 0.0) {
+    evaluation_.Show(origin, input.attitude, goal_O_);
+    return BeginRemedyTurn(turn_rad, input);
+  }
   if (const messages::Spline* safe = evaluation_.TakeSafeSpline()) {
     evaluation_.Show(origin, input.attitude, goal_O_);
     return BeginSpline(*safe, input);
@@ -132,6 +141,11 @@ NavigatorDecision GestaltCycle::Choose(const NavigatorInput& input) {
   if (!turns) return BeginDrive(chosen->motion, input);
   return Begin(searches ? Stage::kTurning : StageOf(turn), turn.motion, std::abs(turn.turn_rad),
                input);
+}
+
+NavigatorDecision GestaltCycle::BeginRemedyTurn(double turn_rad, const NavigatorInput& input) {
+  return Begin(Stage::kTurning, {MotionKind::kTurnInPlace, 0.0, turn_rad < 0.0 ? -1 : +1},
+               std::abs(turn_rad), input);
 }
 
 NavigatorDecision GestaltCycle::BeginDrive(MotionCommand arc, const NavigatorInput& input) {
@@ -215,6 +229,19 @@ bool GestaltCycle::Progresses(const PoseEstimate& estimate) {
   const Progress::Cycle cycle = progress_.BeginCycle(DistanceToGoal_m(estimate));
   if (cycle == Progress::Cycle::kGains) felt_.ForgetPlaces();
   return cycle != Progress::Cycle::kGivesUp;
+}
+
+PlanOrigin GestaltCycle::MadeGood(PlanOrigin origin) const {
+  double& heading_rad = origin.pose.heading_rad;
+  const double drift_rad = drift_.Angle_rad(heading_rad);
+  if (drift_rad != 0.0) heading_rad = math::WrapAngle(heading_rad + drift_rad);
+  return origin;
+}
+
+double GestaltCycle::RemedyTurn(const PlanOrigin& origin) {
+  progress_.CountTurn(origin.pose.heading_rad);
+  if (search_.HasTurnedAround()) return 0.0;
+  return evaluation_.RemedyTurn(origin, goal_O_, progress_.turned_rad());
 }
 
 bool GestaltCycle::AtGoal(const PoseEstimate& estimate) const {

@@ -23,6 +23,7 @@
 // in drives and turns, a felt hazard comes before the end of the motion.
 #pragma once
 
+#include "navigation/gestalt/drift.h"
 #include "navigation/gestalt/evaluation.h"
 #include "navigation/gestalt/felt.h"
 #include "navigation/gestalt/gestalt_params.h"
@@ -50,8 +51,9 @@ class GestaltCycle {
 
   // The estimate is corrected: in O the goal moves, and the rover keeps its place but for rounding.
   // The best distance so far changes with the goal, so that what the rover gained stays gained.
+  // left_m is how far to the left of where it was believed to be the rover is.
   void OnCorrection(const messages::PoseEstimate& before_O, const messages::PoseEstimate& after_O,
-                    const messages::Goal& goal_O);
+                    const messages::Goal& goal_O, double left_m);
 
   // Keeps the map and what was felt. With the next goal, progress is counted and a search begun
   // anew.
@@ -75,6 +77,7 @@ class GestaltCycle {
   NavigatorDecision Look(Stage stage);
   NavigatorDecision OnCloud(const NavigatorInput& input);
   NavigatorDecision Choose(const NavigatorInput& input);
+  NavigatorDecision BeginRemedyTurn(double turn_rad, const NavigatorInput& input);
   NavigatorDecision BeginDrive(messages::MotionCommand arc, const NavigatorInput& input);
   NavigatorDecision BeginSpline(const messages::Spline& spline, const NavigatorInput& input);
   NavigatorDecision Begin(Stage stage, const messages::MotionCommand& motion, double leg,
@@ -89,6 +92,7 @@ class GestaltCycle {
   NavigatorDecision EndMotion(const NavigatorInput& input);
   NavigatorDecision Replan(const NavigatorInput& input);
   NavigatorDecision ReplaceMotion(const NavigatorInput& input, const PlanOrigin& origin);
+  NavigatorDecision StopToTurn();
   NavigatorDecision OnNoSafePlan();
 
   bool turns() const { return stage_ == Stage::kTurning || stage_ == Stage::kTurningToDrive; }
@@ -97,6 +101,10 @@ class GestaltCycle {
   }
   double DistanceToGoal_m(const messages::PoseEstimate& estimate) const;
   bool Progresses(const messages::PoseEstimate& estimate);
+  // Returns the origin with the way that the rover makes good there in place of its heading.
+  PlanOrigin MadeGood(PlanOrigin origin) const;
+  // Returns the turn in place of a remedy that is made before anything is driven; 0: none.
+  double RemedyTurn(const PlanOrigin& origin);
   bool AtGoal(const messages::PoseEstimate& estimate) const;
   messages::MotionVote& NextTurn(const messages::PoseEstimate& estimate);
   // Returns kTurningToDrive for a turn after whose end the rover may drive straight on, else
@@ -112,6 +120,7 @@ class GestaltCycle {
   Search search_;
   Progress progress_;
   FeltHazards felt_;
+  Drift drift_;
 };
 
 }  // namespace rockyard::navigation

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/check.h"
 #include "navigation/gestalt/votes.h"
 
 namespace rockyard::navigation {
@@ -21,7 +22,12 @@ GestaltParams ForArcVotes(const GestaltParams& params) {
 }  // namespace
 
 Evaluation::Evaluation(const GestaltParams& params, double full_speed_m_s)
-    : params_(params), map_(params.map), voter_(ForArcVotes(params)) {
+    : params_(params),
+      map_(params.map),
+      voter_(ForArcVotes(params)),
+      way_(params),
+      way_voter_(params),
+      remedy_turns_(params) {
   if (params.continuous.cycle == DriveCycle::kCsad) spline_voter_.emplace(params, full_speed_m_s);
 }
 
@@ -34,21 +40,42 @@ void Evaluation::See(const messages::PointCloud& cloud, const math::Transform& X
 
 void Evaluation::Forget(const messages::PoseEstimate& rover) {
   map_.Clear();
+  way_.Forget();
   map_.BeginCycle(rover.x_m, rover.y_m);
 }
 
 void Evaluation::Vote(const PlanOrigin& origin, const messages::Goal& goal,
                       const FeltHazards& felt) {
-  const GoodnessGrid& grid = map_.Evaluate();
-  votes_ = voter_.Vote(grid, origin.pose, goal);
+  grid_ = &map_.Evaluate();
+  votes_ = voter_.Vote(*grid_, origin.pose, goal);
   felt.MarkVetoes(votes_);
-  if (!spline_voter_) return;
-  spline_votes_ = spline_voter_->Vote(grid, origin.pose, origin.curvature_per_m, goal);
+  if (spline_voter_) {
+    spline_votes_ = spline_voter_->Vote(*grid_, origin.pose, origin.curvature_per_m, goal);
+  }
+  way_.Plan(*grid_, goal);
+  if (!params_.remedies.cost_to_go.enabled) return;
+  way_voter_.Vote(origin, goal, way_, votes_);
+  way_voter_.Vote(origin, goal, way_, spline_votes_);
+}
+
+const messages::SplineVote* Evaluation::SafeSpline() const {
+  const messages::SplineVote* best = ChooseSpline(spline_votes_, params_);
+  return best != nullptr && best->merged >= params_.votes.min_vote_goodness ? best : nullptr;
+}
+
+double Evaluation::RemedyTurn(const PlanOrigin& origin, const messages::Goal& goal,
+                              double turned_rad) const {
+  EXPECT(grid_ != nullptr);
+  const double turn_rad = remedy_turns_.First(*grid_, origin, goal, way_);
+  if (turn_rad != 0.0 || !spline_voter_) return turn_rad;
+  const messages::SplineVote* best = SafeSpline();
+  return remedy_turns_.InsteadOf(best != nullptr ? &best->spline : nullptr, turned_rad, *grid_,
+                                 origin, goal, way_);
 }
 
 const messages::Spline* Evaluation::TakeSafeSpline() {
-  const messages::SplineVote* best = ChooseSpline(spline_votes_, params_);
-  if (best == nullptr || best->merged < params_.votes.min_vote_goodness) return nullptr;
+  const messages::SplineVote* best = SafeSpline();
+  if (best == nullptr) return nullptr;
   messages::SplineVote& chosen =
       spline_votes_[static_cast<std::size_t>(best - spline_votes_.data())];
   chosen.chosen = true;

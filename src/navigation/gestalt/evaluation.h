@@ -11,7 +11,10 @@
 #include "navigation/gestalt/manoeuvre.h"
 #include "navigation/gestalt/map.h"
 #include "navigation/gestalt/splines.h"
+#include "navigation/gestalt/turns.h"
 #include "navigation/gestalt/votes.h"
+#include "navigation/gestalt/way_to_go.h"
+#include "navigation/gestalt/way_votes.h"
 
 namespace rockyard::navigation {
 
@@ -38,6 +41,10 @@ class Evaluation {
   // Chooses the best spline and marks it as chosen; null where none is safe.
   const messages::Spline* TakeSafeSpline();
 
+  // Returns the turn in place, rad, positive left, that a remedy makes instead of what the votes
+  // would choose; 0: none. `turned_rad` is what the rover has turned without progress.
+  double RemedyTurn(const PlanOrigin& origin, const messages::Goal& goal, double turned_rad) const;
+
   // Makes view() of the last votes, for traces and pages. It copies them: a choice has to be marked
   // before.
   void Show(const PlanOrigin& origin, const messages::AttitudeEstimate& attitude,
@@ -47,12 +54,19 @@ class Evaluation {
   GestaltMap& map() { return map_; }
 
  private:
+  // Returns the best spline; null where none is safe.
+  const messages::SplineVote* SafeSpline() const;
+
   GestaltParams params_;
   GestaltMap map_;
   ArcVoter voter_;
   std::optional<SplineVoter> spline_voter_;  // where the cycle is csad
   MotionVotes votes_;
   SplineVotes spline_votes_;
+  WayToGo way_;
+  WayVoter way_voter_;
+  RemedyTurns remedy_turns_;
+  const GoodnessGrid* grid_ = nullptr;  // of the last votes
   bool looked_behind_ = false;
   std::optional<messages::NavigationView> view_;
 };

@@ -37,7 +37,8 @@ void GestaltNavigator::OnCorrection(const PoseEstimate& before, const PoseEstima
   const PoseEstimate turned_O = InO(after);
   X_OW_.x_m = before_O.x_m - turned_O.x_m;
   X_OW_.y_m = before_O.y_m - turned_O.y_m;
-  cycle_.OnCorrection(before_O, InO(after), InO(goal_W_));
+  const double left_m = math::SeenFrom(Planar(before), Planar(after)).y_m;
+  cycle_.OnCorrection(before_O, InO(after), InO(goal_W_), left_m);
 }
 
 void GestaltNavigator::SetGoal(const Goal& goal, GoalChange change) {

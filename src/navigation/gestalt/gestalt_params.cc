@@ -131,6 +131,7 @@ void GestaltParams::Visit(core::FieldVisitor& v) {
   v.Group("continuous", continuous, "looking and planning on the move");
   v.Group("splines", splines, "splines, of a rover that steers while it drives");
   v.Group("speed", speed, "how fast curves are driven by a rover that steers while it drives");
+  v.Group("remedies", remedies, "what is done otherwise than the papers do it, off by default");
   v.Require("plan.plan_min_dist_m", plan.plan_min_dist_m < map.Reach_m(),
             "is where the map ends or beyond (half of its grid, or grid_dist_timeout_m): nothing "
             "of any path could be known",
@@ -146,6 +147,9 @@ void GestaltParams::Visit(core::FieldVisitor& v) {
             continuous.cycle != DriveCycle::kCsad || continuous.motion_m <= splines.length_m,
             "is beyond the end of the splines (splines.length_m)",
             "use a smaller motion_m or a larger splines.length_m");
+  v.Require("remedies.cost_to_go.enabled",
+            !remedies.cost_to_go.enabled || map.grid.xstep_m == map.grid.ystep_m,
+            "needs cells as long as wide", "make map.grid.xstep_m and ystep_m equal");
   v.Require("drive.max_fruitless_cycles",
             static_cast<double>(drive.max_fruitless_cycles) * arcs.point_turn_amount_rad >=
                 drive.search_turn_rad,

@@ -13,6 +13,7 @@
 #include "core/fields.h"
 #include "math/angles.h"
 #include "navigation/gestalt/map_params.h"
+#include "navigation/gestalt/remedy_params.h"
 
 namespace rockyard::navigation {
 
@@ -202,6 +203,7 @@ struct GestaltParams {
   GestaltContinuousParams continuous;
   GestaltSplineParams splines;
   SpeedLawParams speed;
+  GestaltRemedyParams remedies;
 
   void Visit(core::FieldVisitor& v);
 };

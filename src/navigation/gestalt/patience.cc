@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "math/angles.h"
 #include "navigation/gestalt/votes.h"
 
 namespace rockyard::navigation {
@@ -19,9 +20,20 @@ Progress::Cycle Progress::BeginCycle(double goal_distance_m) {
   const bool first = !std::isfinite(best_m_);
   best_m_ = goal_distance_m;
   fruitless_cycles_ = 0;
+  turned_rad_ = 0.0;
   if (first) return Cycle::kGoesOn;
   felt_hazards_ = 0;
   return Cycle::kGains;
+}
+
+void Progress::CountTurn(double heading_rad) {
+  if (heading_rad_) turned_rad_ += std::abs(math::WrapAngle(heading_rad - *heading_rad_));
+  heading_rad_ = heading_rad;
+}
+
+void Progress::Rest() {
+  turned_rad_ = 0.0;
+  heading_rad_.reset();
 }
 
 void Progress::Restart() {

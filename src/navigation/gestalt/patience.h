@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "navigation/gestalt/gestalt_params.h"
 #include "navigation/gestalt/votes.h"
@@ -27,6 +28,13 @@ class Progress {
   // distance to a goal, which is no gain itself.
   Cycle BeginCycle(double goal_distance_m);
 
+  // Counts what the rover has turned on the move since the last call, |change of heading|.
+  void CountTurn(double heading_rad);
+  // Returns the turning that was counted since the last gain or rest.
+  double turned_rad() const { return turned_rad_; }
+  // Is told that the rover is at rest: what it turns counts anew.
+  void Rest();
+
   // Counts a felt hazard. Returns false after max_felt.
   bool GoesOnAfterFelt() { return ++felt_hazards_ <= params_.max_felt; }
 
@@ -43,6 +51,8 @@ class Progress {
   double best_m_ = std::numeric_limits<double>::infinity();
   std::int64_t fruitless_cycles_ = 0;
   std::int64_t felt_hazards_ = 0;
+  double turned_rad_ = 0.0;
+  std::optional<double> heading_rad_;  // at the last count
 };
 
 // Turning in place for want of a way. Invariant: a search turns to one side only, as what it has

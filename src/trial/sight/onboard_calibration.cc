@@ -51,6 +51,9 @@ messages::RoverBelief OnboardRoverBelief(const rover::RoverParams& rover,
                                          const perception::DriveCalibrationErrors& errors,
                                          const perception::VehicleHazardParams& felt) {
   const rover::RoverGeometryParams& geometry = rover.geometry;
+  const rover::RoverGeometry places = rover::MakeRoverGeometry(geometry);
+  const Vector3& rocker = places.rocker_pivot_R.front();
+  const Vector3& bogie = places.bogie_pivot_R.front();
   return {.drive = OnboardDriveCalibration(rover, errors),
           .length_m = geometry.length_m,
           .width_m = geometry.width_m,
@@ -58,7 +61,15 @@ messages::RoverBelief OnboardRoverBelief(const rover::RoverParams& rover,
           .wheel_width_m = geometry.wheel_width_m,
           .max_rocker_rad = geometry.rocker_limit_rad,
           .max_bogie_rad = geometry.bogie_limit_rad,
-          .max_tilt_rad = felt.max_tilt_rad};
+          .max_tilt_rad = felt.max_tilt_rad,
+          .suspension = {.bogies_at_front = geometry.bogie_end == rover::BogieEnd::kFront,
+                         .rocker_pivot_x_m = rocker.x(),
+                         .rocker_pivot_z_m = rocker.z(),
+                         .bogie_pivot_x_m = bogie.x(),
+                         .bogie_pivot_z_m = bogie.z(),
+                         .pivot_y_m = rocker.y(),
+                         .belly_length_m = geometry.belly_length_m,
+                         .belly_width_m = geometry.belly_width_m}};
 }
 
 messages::StripeCalibration OnboardStripeCalibration(

@@ -46,6 +46,7 @@ TEST_F(EntryTest, SettingsAreThoseOfTheNavigator) {
 
 TEST_F(EntryTest, WhatCannotBeMeantIsRefused) {
   ExpectRefused(R"({"navigator": "gestalt"})", "name", "is missing");
+  ExpectRefused(R"({"name": "a|b", "navigator": "gestalt"})", "name", "is no name");
   ExpectRefused(R"({"name": "mine"})", "navigator", "is missing");
   ExpectRefused(R"({"name": "mine", "navigator": "a", "plugin": "a.so", "process": "b"})", "plugin",
                 "beside a process");

@@ -1,0 +1,105 @@
+#include "navigation/gestalt/turns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+
+#include "math/angles.h"
+#include "math/functions.h"
+#include "navigation/gestalt/votes.h"
+
+namespace rockyard::navigation {
+namespace {
+
+using messages::Goal;
+using messages::PoseEstimate;
+
+// Directions that are looked into beside that of the goal, all round: one every 5 deg.
+constexpr int kDirections = 72;
+
+}  // namespace
+
+RemedyTurns::RemedyTurns(const GestaltParams& params)
+    : params_(params),
+      law_(params.splines.law, params.speed),
+      sampling_(
+          SamplePaths(params.plan, std::min(params.map.grid.xstep_m, params.map.grid.ystep_m))) {
+  for (const double s_m : sampling_.distance_m) straight_.push_back({s_m, 0.0});
+}
+
+double RemedyTurns::First(const GoodnessGrid& grid, const PlanOrigin& origin, const Goal& goal,
+                          const WayToGo& way) const {
+  const TurnFirstParams& first = params_.remedies.turn_first;
+  if (!first.enabled) return 0.0;
+  const double angle_rad = BestTurn(Sensible(), grid, origin.pose, goal, way).angle_rad;
+  return std::abs(angle_rad) > first.bearing_rad ? angle_rad : 0.0;
+}
+
+double RemedyTurns::InsteadOf(const messages::Spline* best, double turned_rad,
+                              const GoodnessGrid& grid, const PlanOrigin& origin, const Goal& goal,
+                              const WayToGo& way) const {
+  const StopToTurnParams& stops = params_.remedies.stop_to_turn;
+  if (!stops.enabled) return 0.0;
+  const bool orbits = turned_rad > stops.orbit_turn_rad;
+  const Turn turn =
+      BestTurn(orbits ? Directions::kAllRound : Sensible(), grid, origin.pose, goal, way);
+  if (orbits || best == nullptr || LiesInsideTightestCircle(origin.pose, goal)) {
+    return turn.angle_rad;
+  }
+  const double length_m =
+      std::min(params_.splines.waypoint_m, TowardsGoal(origin.pose, goal).distance_m);
+  const math::Pose2 end = AlongSpline(Planar(origin.pose), *best, 0.0, length_m, law_);
+  const double saves_m = length_m + way.From_m(end.x_m, end.y_m) - turn.way_m;
+  return saves_m > stops.saves_m ? turn.angle_rad : 0.0;
+}
+
+RemedyTurns::Directions RemedyTurns::Sensible() const {
+  return params_.remedies.cost_to_go.enabled ? Directions::kAllRound : Directions::kTowardsGoal;
+}
+
+RemedyTurns::Turn RemedyTurns::BestTurn(Directions directions, const GoodnessGrid& grid,
+                                        const PoseEstimate& pose, const Goal& goal,
+                                        const WayToGo& way) const {
+  const GoalDirection direct = TowardsGoal(pose, goal);
+  // A searched way bends at any place; a straight one is to be open as far as paths are judged.
+  const double share = directions == Directions::kAllRound ? 0.5 : 1.0;
+  const double length_m = std::min(share * params_.plan.plan_max_dist_m, direct.distance_m);
+  Turn best{.way_m = std::numeric_limits<double>::infinity()};
+  const auto consider = [&](double angle_rad) {
+    PoseEstimate turned = pose;
+    turned.heading_rad = math::WrapAngle(pose.heading_rad + angle_rad);
+    const math::Pose2 end = AlongClothoid(Planar(turned), 0.0, 0.0, length_m);
+    const double way_m = length_m + way.From_m(end.x_m, end.y_m);
+    if (way_m >= best.way_m) return;
+    const HazardVote hazard = VoteOnPath(
+        grid, turned, std::span(straight_).first(sampling_.CountWithin(length_m)), sampling_.weight,
+        params_.votes.min_allowed_goodness, params_.plan.unknown_cells);
+    if (hazard.goodness > params_.drive.min_drive_goodness) best = {angle_rad, way_m};
+  };
+  consider(direct.bearing_rad);
+  if (directions == Directions::kTowardsGoal) return best;
+  for (int i = 0; i < kDirections; ++i) {
+    // From straight ahead to either side, so that the smaller of equal turns is taken.
+    const double side = i % 2 == 0 ? 1.0 : -1.0;
+    const int steps = (i + 1) / 2;
+    consider(side * steps * 2.0 * std::numbers::pi / kDirections);
+  }
+  return best;
+}
+
+// The circle of the tightest knots to the goal's side does not touch the goal's disc:
+//   |goal - (0, r)|^2 = d^2 + r^2 - 2 d r |sin b| < (r - tolerance)^2.
+bool RemedyTurns::LiesInsideTightestCircle(const PoseEstimate& pose, const Goal& goal) const {
+  const double inner_m =
+      1.0 / params_.splines.max_curvature_per_m - params_.waypoints.goal_tolerance_m;
+  if (inner_m <= 0.0) return false;
+  const double radius_m = 1.0 / params_.splines.max_curvature_per_m;
+  const GoalDirection direct = TowardsGoal(pose, goal);
+  const double aside_m = direct.distance_m * std::abs(math::Sin(direct.bearing_rad));
+  return direct.distance_m * direct.distance_m + radius_m * (radius_m - 2.0 * aside_m) <
+         inner_m * inner_m;
+}
+
+}  // namespace rockyard::navigation
