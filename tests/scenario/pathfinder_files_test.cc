@@ -31,6 +31,7 @@ std::map<std::string, Scenario> LoadAll() {
     const std::map<std::string, std::string> prefixes = {{"bench", "bench_"},
                                                          {"continuous", "continuous_"},
                                                          {"courses", "course_"},
+                                                         {"outsider", "course_outsider_"},
                                                          {"gestalt", "gestalt_"}};
     const auto found = prefixes.find(folder);
     const std::string prefix = found == prefixes.end() ? "" : found->second;
