@@ -65,15 +65,20 @@ void AddRun(CLI::App& bench, ExitCode& exit_code) {
       ->check(CLI::Range(1, 4096));
   command->add_flag("--quiet", campaign.quiet, "print nothing but errors");
   command->callback([options, command, &exit_code] {
-    options->campaign.resume_command = ResumeText(*command);
+    // The text of a command has its own name alone: "rockyard run ...".
+    constexpr std::string_view kProgram = "rockyard ";
+    options->campaign.resume_command =
+        "rockyard bench " + ResumeText(*command).substr(kProgram.size());
     options->request.campaign = options->campaign.Request();
     SharedFlag output_failed;
     const campaign::RunObserver shown = ShowRun(options->campaign, output_failed);
     const campaign::WorkResult result = campaign::RunBench(options->request, shown, StopBySignal());
     if (result.outcome == ExitCode::kDone && !options->campaign.quiet) {
-      Print(fmt::format("  head: {}\n  next: rockyard bench verify {}\n",
-                        campaign::ReadBenchRun(result.folder).head,
-                        campaign::ShellPath(result.folder.string())));
+      const std::string& suite = options->request.suite;
+      Print(fmt::format(
+          "  head: {}\n  next: rockyard bench verify {}{}\n",
+          campaign::ReadBenchRun(result.folder).head, campaign::ShellPath(result.folder.string()),
+          suite.starts_with("bench/") ? "" : " --suite " + campaign::ShellPath(suite)));
     }
     exit_code = ShownOutcome(result.outcome, output_failed);
   });
@@ -137,7 +142,9 @@ std::string VerificationText(const campaign::BenchVerification& found, std::uint
                            : std::string());
   text += fmt::format("  head: {}\n", found.run.head);
   for (const std::string& finding : found.findings) text += "  " + finding + "\n";
-  if (found.findings.empty()) {
+  if (found.findings.empty() && found.driven_again == 0)
+    text += "  nothing is wrong; no drive was driven again\n";
+  if (found.findings.empty() && found.driven_again > 0) {
     text += fmt::format(
         "  nothing is wrong; were a hundredth of the drives invented, this would have been seen "
         "with {:.1f} %\n",
@@ -153,6 +160,8 @@ void AddVerify(CLI::App& bench, ExitCode& exit_code) {
   command->add_option("RUN", options->request.folder, "folder of a run of an entry")->required();
   command->add_option("--suite", options->request.suite,
                       "sweep file or its name (default: bench/ and the name in the run)");
+  command->add_option("--entry", options->request.entry,
+                      "the entry, to be held against what drove (default: it is not at hand)");
   command
       ->add_option("--sample", options->request.sample,
                    "drives that are driven again; as many as there are for all (300)")

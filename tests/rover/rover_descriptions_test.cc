@@ -84,13 +84,14 @@ TEST_P(RoverDescription, ClimbsAStep) {
   const RoverGeometryParams& geometry = params_.geometry;
   const double share = geometry.bogie_end == BogieEnd::kFront ? 1.0 : 0.5;
   const double height_m = share * geometry.wheel_radius_m;
-  const terrain::Terrain step = StepTerrain(height_m);
+  const terrain::Terrain step =
+      StepTerrain(height_m, BekkerSoil(), 0.01, std::max(1.2, 1.6 * geometry.wheelbase_m));
   StartOn(step);
   // The step begins at x = 0.6.
   const double ahead_m = 0.5 * geometry.wheelbase_m + geometry.wheel_radius_m;
   const double start_m = std::min(0.0, 0.55 - ahead_m);
   rover_->Place({start_m, 0.0, 0.0});
-  const double all_on_it_m = 0.6 + 0.5 * geometry.wheelbase_m + 0.02;
+  const double all_on_it_m = 0.6 + 0.5 * geometry.wheelbase_m + geometry.wheel_radius_m;
   const messages::WheelCommand command = Drive(params_, speed_m_s_, 0.0);
   const auto steps =
       static_cast<int>(2.0 * (all_on_it_m - start_m) / speed_m_s_ / rover_->step_s());

@@ -104,18 +104,20 @@ inline terrain::Rock MakeRock(double x_m, double y_m, double center_z_m, double 
                        .height_m = center_z_m + c_m};
 }
 
-// A vertical step across the way, 1.2 m deep: flat ellipsoids stacked so densely that a wheel meets
-// a wall with ripples of 0.1 mm and a sharp upper edge `edge_m` below the flat top.
-inline std::vector<terrain::Rock> StepRocks(double height_m, double edge_m = 0.01) {
+// A vertical step across the way, `deep_m` along it from x = 0.6 on: flat ellipsoids stacked so
+// densely that a wheel meets a wall with ripples of 0.1 mm and a sharp upper edge `edge_m` below
+// the flat top.
+inline std::vector<terrain::Rock> StepRocks(double height_m, double edge_m = 0.01,
+                                            double deep_m = 1.2) {
   std::vector<terrain::Rock> rocks;
   for (double z = height_m - edge_m; z > 0.0; z -= 0.6 * edge_m) {
-    rocks.push_back(MakeRock(1.2, 0.0, z, 0.6, 2.0, edge_m));
+    rocks.push_back(MakeRock(0.6 + 0.5 * deep_m, 0.0, z, 0.5 * deep_m, 2.0, edge_m));
   }
   return rocks;
 }
 inline terrain::Terrain StepTerrain(double height_m, const terrain::SoilParams& soil = BekkerSoil(),
-                                    double edge_m = 0.01) {
-  return {terrain::Ground({.soil = soil}, {}), StepRocks(height_m, edge_m), {}};
+                                    double edge_m = 0.01, double deep_m = 1.2) {
+  return {terrain::Ground({.soil = soil}, {}), StepRocks(height_m, edge_m, deep_m), {}};
 }
 
 inline void RunFor(Rover& rover, const messages::WheelCommand& command, double time_s) {

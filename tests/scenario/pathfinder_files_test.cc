@@ -32,6 +32,7 @@ std::map<std::string, Scenario> LoadAll() {
                                                          {"continuous", "continuous_"},
                                                          {"courses", "course_"},
                                                          {"outsider", "course_outsider_"},
+                                                         {"arc_planning", "arc_planning_"},
                                                          {"gestalt", "gestalt_"}};
     const auto found = prefixes.find(folder);
     const std::string prefix = found == prefixes.end() ? "" : found->second;

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <system_error>
 #include <utility>
 
+#include "batch/run_folder.h"
 #include "campaign/bench/bench_chain.h"
 #include "campaign/run_source.h"
 #include "campaign/scenario_names.h"
@@ -14,7 +16,6 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json_text.h"
-#include "core/provenance.h"
 #include "navigation/action_log.h"
 #include "report/atomic_file.h"
 #include "report/result_table.h"
@@ -57,6 +58,18 @@ CampaignRequest Recording(const BenchRequest& request, const BenchEntry& entry,
   return campaign;
 }
 
+// Renames what the benchmark has of a run that is set aside, as its store is: NAME.old-1, ...
+void SetAside(const fs::path& folder) {
+  for (const char* name : {kBenchFile, kChainFile, "actions"}) {
+    std::error_code error;
+    if (!fs::exists(folder / name, error)) continue;
+    int number = 1;
+    while (fs::exists(folder / fmt::format("{}.old-{}", name, number), error)) ++number;
+    fs::rename(folder / name, folder / fmt::format("{}.old-{}", name, number), error);
+    if (error) core::FailOnDisk(folder / name, "cannot be renamed", error);
+  }
+}
+
 // Throws where the actions of a drive are not there that its navigator did not break off.
 void RequireActions(const fs::path& folder, const batch::ResultStore& store) {
   for (std::size_t cell = 0; cell < store.identity().cells.size(); ++cell) {
@@ -77,19 +90,16 @@ void WriteBenchFiles(const BenchEntry& entry, const std::string& suite_digest,
                      const std::string& beacon, const fs::path& folder) {
   const batch::ResultStore store = batch::ResultStore::Read(folder);
   RequireActions(folder, store);
-  const auto seed = static_cast<std::int64_t>(store.identity().cells.front().seed);
-  const std::string start =
-      core::Sha256(fmt::format("rockyard bench {}\n{}\n{}\n{}\n{}\n", kBenchVersion, entry.digest,
-                               suite_digest, seed, fmt::join(store.Builds(), "\n")));
+  JsonValue document = report::ObjectTree(
+      "bench_version", kBenchVersion, "entry", entry.document, "entry_digest", entry.digest,
+      "suite", store.identity().name, "suite_digest", suite_digest, "beacon", beacon, "seed",
+      static_cast<std::int64_t>(store.identity().cells.front().seed), "layouts", store.planned());
+  const std::string start = ChainStart(document, store);
   const std::vector<ChainLink> chain = MakeChain(folder, store, start);
+  document.Set("start", JsonValue(start));
+  document.Set("head", JsonValue(chain.back().digest));
   report::WriteFileAtomically(folder / kChainFile, ChainCsv(chain));
-  report::WriteFileAtomically(
-      folder / kBenchFile,
-      core::DumpJson(report::ObjectTree(
-          "bench_version", kBenchVersion, "entry", entry.document, "entry_digest", entry.digest,
-          "suite", store.identity().name, "suite_digest", suite_digest, "beacon", beacon, "seed",
-          seed, "layouts", store.planned(), "program", core::VersionLine(), "start", start, "head",
-          chain.back().digest)));
+  report::WriteFileAtomically(folder / kBenchFile, core::DumpJson(document));
 }
 
 const std::string& TextIn(const JsonValue& document, const char* key, const std::string& file) {
@@ -112,6 +122,15 @@ std::int64_t IntegerIn(const JsonValue& document, const char* key, const std::st
 
 }  // namespace
 
+std::string ChainStart(const JsonValue& document, const batch::ResultStore& store) {
+  std::string text;
+  for (const core::JsonMember& member : document.members()) {
+    if (member.key == "start" || member.key == "head") continue;
+    text += fmt::format("{}={}\n", member.key, core::CompactJson(member.value));
+  }
+  return core::Sha256(text + fmt::format("{}", fmt::join(store.Builds(), "\n")));
+}
+
 std::int64_t BeaconSeed(std::string_view suite_digest, std::string_view beacon) {
   const std::string digest =
       core::Sha256(fmt::format("rockyard bench {}\n{}\n{}\n", kBenchVersion, suite_digest, beacon));
@@ -131,6 +150,13 @@ WorkResult RunBench(const BenchRequest& request, const RunObserver& observer, co
       throw core::UserError(sweep.file.string(), "has no common_random_numbers",
                             "take a suite of the benchmark, such as bench/points");
     }
+    const auto& tracks = core::EnumNames<BenchTrack>::kNames;
+    const auto& track = tracks.at(static_cast<std::size_t>(entry->manifest.track));
+    if (std::ranges::find(tracks, suite.name) != tracks.end() && suite.name != track) {
+      throw core::UserError("track",
+                            fmt::format("is {}, and the suite is of {}", track, suite.name),
+                            "enter it into a suite of its track");
+    }
     std::optional<std::int64_t> seed;
     if (!request.beacon.empty()) seed = BeaconSeed(suite_digest, request.beacon);
     const fs::path folder =
@@ -139,6 +165,7 @@ WorkResult RunBench(const BenchRequest& request, const RunObserver& observer, co
             : DefaultFolder(fmt::format("bench-{}-{}", suite.name, entry->manifest.name),
                             seed.value_or(static_cast<std::int64_t>(suite.seed)));
     sweep.campaign = Recording(request, *entry, folder, seed);
+    if (request.campaign.existing == ExistingRun::kSetAside) SetAside(folder);
     return Outcome::kDone;
   });
   if (result.outcome != Outcome::kDone) return result;
@@ -158,6 +185,13 @@ BenchRun ReadBenchRun(const fs::path& folder) {
   constexpr std::size_t kMaxBytes = 1 << 24;
   BenchRun run;
   run.folder = folder;
+  std::error_code error;
+  if (!fs::exists(file, error)) {
+    throw core::UserError(folder.string(), "holds no finished run of an entry",
+                          batch::HoldsStore(folder)
+                              ? "go on with `rockyard bench run ENTRY --out FOLDER --resume`"
+                              : "name the folder that `rockyard bench run` wrote");
+  }
   run.document = core::ParseJson(
       core::ReadTextFile(file, kMaxBytes, "bench.json of a finished bench run"), file);
   const std::int64_t version = IntegerIn(run.document, "bench_version", file);

@@ -43,6 +43,9 @@ WorkResult RunBench(const BenchRequest& request, const RunObserver& observer = {
 // each.
 std::int64_t BeaconSeed(std::string_view suite_digest, std::string_view beacon);
 
+// What a run's chain begins with: SHA-256 of the entry, the suite, the seed and who drove.
+std::string ChainStart(const core::JsonValue& document, const batch::ResultStore& store);
+
 // A finished run of an entry.
 struct BenchRun {
   std::filesystem::path folder;

@@ -188,8 +188,12 @@ Standing StandingOf(BenchRun run, const ScoredCells& cells, const ScoredCells& b
   const std::vector<double> scores = Scores(cells, &ScoredDrive::arrived);
   const MeanDifference against =
       statistics::PairedMeans(Less(scores, Scores(baseline, &ScoredDrive::arrived)));
-  standing.score = Estimate(scores);
-  standing.difference = Estimate(against);
+  const auto within = [](Estimated of, double least) {
+    of.interval = {std::max(of.interval.low, least), std::min(of.interval.high, 1.0)};
+    return of;
+  };
+  standing.score = within(Estimate(scores), 0.0);
+  standing.difference = within(Estimate(against), -1.0);
   standing.verdict = VerdictOf(against);
   standing.told = kToldErrors * against.standard_error;
   standing.unsafe = MeanOf(Scores(cells, &ScoredDrive::unsafe));

@@ -113,8 +113,8 @@ std::vector<std::size_t> Sample(std::size_t drives, const BenchVerifyRequest& re
 // The experiment of a cell, whose navigators give the answers of the run.
 std::unique_ptr<experiments::Experiment> PlayedExperiment(const fs::path& folder, std::size_t cell,
                                                           const batch::CellIdentity& identity) {
-  scenario::Scenario scenario =
-      scenario::ReadScenarioSealed(core::ParseJson(identity.resolved, identity.name));
+  // A plugin or process says what it reads and what its looks cost; it decides nothing.
+  scenario::Scenario scenario = ScenarioToDrive(identity.resolved, identity.name);
   scenario.drive.navigation.navigators.WrapChosen(
       [&](std::unique_ptr<navigation::NavigatorKind> kind) {
         return navigation::Played(std::move(kind), [=](std::uint64_t random_seed) {
@@ -195,6 +195,13 @@ BenchVerification VerifyBench(const BenchVerifyRequest& request,
           : BeaconSeed(verification.run.suite_digest, verification.run.beacon);
   if (seed != verification.run.seed) {
     verification.findings.push_back("the seed is not that of the beacon");
+  }
+  if (ChainStart(verification.run.document, store) != verification.run.start) {
+    verification.findings.push_back(
+        fmt::format("{} is not what its chain begins with", kBenchFile));
+  }
+  if (!request.entry.empty() && ReadEntry(request.entry).digest != verification.run.entry_digest) {
+    verification.findings.push_back("the entry is not the one that drove");
   }
   CheckChain(verification.run, store, verification.findings);
   std::vector<StoredDrive> drives;

@@ -17,10 +17,11 @@ namespace rockyard::campaign {
 
 struct BenchVerifyRequest {
   std::filesystem::path folder;
-  std::string suite = {};     // a sweep file or its name; "": bench/ and the name in the run
-  std::int64_t sample = 300;  // drives that are driven again; all where there are no more
-  std::uint64_t seed = 0;     // of the choice of these drives: not to be known to the entry
-  int threads = 0;            // 0: as many as the machine runs at once
+  std::string suite = {};            // a sweep file or its name; "": bench/ and the name in the run
+  std::filesystem::path entry = {};  // to be held against what drove; "": it is not at hand
+  std::int64_t sample = 300;         // drives that are driven again; all where there are no more
+  std::uint64_t seed = 0;            // of the choice of these drives: not to be known to the entry
+  int threads = 0;                   // 0: as many as the machine runs at once
 };
 
 struct BenchVerification {
@@ -37,10 +38,10 @@ struct BenchVerification {
   double ChanceToMiss(double share) const;
 };
 
-// Verifies. `progress` is told of drives, by one thread at a time. The findings are told in the
-// order of cells and trials, ten at the most of each kind. Throws core::UserError where the folder
-// holds no run of an entry, or where another build of the program made it: physics of one build is
-// driven again by that build.
+// Verifies; asks a plugin or process of the entry for its description. `progress` is told of
+// drives, by one thread at a time. The findings are told in the order of cells and trials, ten at
+// the most of each kind. Throws core::UserError where the folder holds no run of an entry, or where
+// another build of the program made it: physics of one build is driven again by that build.
 BenchVerification VerifyBench(
     const BenchVerifyRequest& request,
     const std::function<void(std::size_t done, std::size_t planned)>& progress = {},

@@ -120,6 +120,9 @@ BenchEntry ReadEntry(const fs::path& path) {
     const fs::path library = (folder / manifest.plugin).lexically_normal();
     if (library.lexically_relative(folder).generic_string().starts_with("..")) {
       problems.push_back({"plugin", "is outside of the entry's folder", "put the library there"});
+    } else if (!fs::is_regular_file(library, error)) {
+      problems.push_back({"plugin", "names " + library.string() + ", which is no file",
+                          "build the library, or give its place in the entry's folder"});
     }
     plugins.push_back(core::JsonValue::Object({{"library", core::JsonValue(manifest.plugin)}}));
   }

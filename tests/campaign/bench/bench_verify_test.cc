@@ -53,6 +53,47 @@ TEST_F(BenchVerify, AnHonestRunHasNoFindings) {
   EXPECT_EQ(found.run.layouts, 3);
 }
 
+TEST_F(BenchVerify, APluginsDrivesComeOutByItsActionsAlone) {
+  BenchRequest request = Request("run");
+  fs::create_directories(Path("plugin"));
+  fs::copy_file(COUNTING_NAVIGATOR, Path("plugin/libcounting.so"));
+  Write(Path("plugin/entry.json"),
+        R"({"name": "counting", "navigator": "counter", "plugin": "libcounting.so"})");
+  request.entry = Path("plugin");
+  request.campaign.containment.supervisor = true;  // as a plugin needs
+  const WorkResult result = RunBench(request);
+  ASSERT_EQ(result.outcome, Outcome::kDone)
+      << result.problems.front().path << ": " << result.problems.front().reason;
+  const BenchVerification found = Verify(Path("run"));
+  EXPECT_EQ(found.driven_again, 9);
+  EXPECT_THAT(found.findings, IsEmpty());
+}
+
+TEST_F(BenchVerify, AnotherEntryThanTheOneThatDrove) {
+  const fs::path run = Driven();
+  BenchVerifyRequest request{.folder = run, .suite = Path("suite.json").string()};
+  request.entry = Path("entry.json");
+  request.sample = 0;
+  EXPECT_THAT(VerifyBench(request).findings, IsEmpty());
+  Write(Path("entry.json"), R"({"name": "mine", "navigator": "pathfinder"})");
+  EXPECT_THAT(VerifyBench(request).findings, ElementsAre("the entry is not the one that drove"));
+  core::JsonValue document = core::ParseJson(Read(run / kBenchFile), kBenchFile);
+  document.Find("entry")->Set("name", core::JsonValue("another"));
+  Write(run / kBenchFile, core::DumpJson(document));
+  EXPECT_THAT(Verify(run, 0).findings, ElementsAre("bench.json is not what its chain begins with"));
+}
+
+TEST_F(BenchVerify, WhatIsSetAsideStays) {
+  const std::string head = ReadBenchRun(Driven()).head;
+  BenchRequest request = Request("run");
+  request.campaign.trials = 2;
+  request.campaign.existing = ExistingRun::kSetAside;
+  ASSERT_EQ(RunBench(request).outcome, Outcome::kDone);
+  EXPECT_THAT(Read(Path("run/bench.json.old-1")), HasSubstr(head));
+  EXPECT_TRUE(fs::exists(Path("run/actions.old-1")));
+  EXPECT_THAT(Verify(Path("run")).findings, IsEmpty());
+}
+
 TEST_F(BenchVerify, ResumingGivesTheSameHead) {
   const std::string head = ReadBenchRun(Driven()).head;
   BenchRequest request = Request("again");
@@ -127,7 +168,7 @@ TEST_F(BenchVerify, AnotherSeedThanTheBeacons) {
   core::JsonValue document = core::ParseJson(Read(Path("run") / kBenchFile), kBenchFile);
   document.Set("beacon", core::JsonValue("round 2"));
   Write(Path("run") / kBenchFile, core::DumpJson(document));
-  EXPECT_THAT(Verify(Path("run"), 0).findings, ElementsAre("the seed is not that of the beacon"));
+  EXPECT_THAT(Verify(Path("run"), 0).findings, Contains("the seed is not that of the beacon"));
 }
 
 TEST_F(BenchVerify, AChainThatIsCutOff) {
@@ -142,7 +183,7 @@ TEST_F(BenchVerify, AChainThatIsCutOff) {
 TEST_F(BenchVerify, ActionsThatCouldNotBeWrittenEndTheRun) {
   Write(Path("run/actions"), "a file where a folder is needed");
   BenchRequest request = Request("run");
-  request.campaign.existing = ExistingRun::kSetAside;
+  request.campaign.existing = ExistingRun::kResumeOrSetAside;
   const WorkResult result = RunBench(request);
   EXPECT_EQ(result.outcome, Outcome::kFailed);
   ASSERT_EQ(result.problems.size(), 1u);

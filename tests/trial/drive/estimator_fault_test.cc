@@ -166,7 +166,7 @@ TEST(EstimatorFaultTest, OwnValuesAreColumns) {
   const experiments::DriveExperiment chosen(With({}));
   const experiments::DriveExperiment other(With({}, {"localization.estimator=oracle"}));
   for (const auto* experiment : {&chosen, &other}) {
-    ASSERT_EQ(experiment->schema().size(), truth::kDriveColumns.size() + 1);
+    ASSERT_EQ(experiment->schema().size(), truth::kDriveColumns.size() + 4 + 1);  // 4 of ENav
     EXPECT_EQ(experiment->schema().back().name, "failing.ticks");
     EXPECT_EQ(experiment->schema().back().meaning, "how often it was carried on");
   }

@@ -269,12 +269,15 @@ std::size_t ColumnOf(const experiments::DriveExperiment& experiment, const std::
   return 0;
 }
 
+// Of rockyard's navigators ENav has some, before those of others.
+constexpr std::size_t kOwnOfEnav = 4;
+
 TEST(OwnValuesTest, AreTheLastColumnsOfARecord) {
   const experiments::DriveExperiment experiment(With({}));
   const truth::RecordSchema& schema = experiment.schema();
-  ASSERT_EQ(schema.size(), truth::kDriveColumns.size() + 2);
-  EXPECT_EQ(ColumnOf(experiment, kDecisions), truth::kDriveColumns.size());
-  EXPECT_EQ(ColumnOf(experiment, kLastTime), truth::kDriveColumns.size() + 1);
+  ASSERT_EQ(schema.size(), truth::kDriveColumns.size() + kOwnOfEnav + 2);
+  EXPECT_EQ(ColumnOf(experiment, kDecisions), truth::kDriveColumns.size() + kOwnOfEnav);
+  EXPECT_EQ(ColumnOf(experiment, kLastTime), truth::kDriveColumns.size() + kOwnOfEnav + 1);
   EXPECT_EQ(schema.back().unit, "s");
   EXPECT_EQ(schema.back().meaning, "when it was asked last");
   const truth::Record record = experiment.Run(1, 0);
@@ -290,7 +293,7 @@ TEST(OwnValuesTest, OfANavigatorThatDoesNotDriveAreNone) {
   const experiments::DriveExperiment experiment(
       With({}, {"navigation.navigator=pathfinder", "navigation.pathfinder.time_out_s=5"}));
   const truth::Record record = experiment.Run(1, 0);
-  ASSERT_EQ(record.values.size(), truth::kDriveColumns.size() + 2);
+  ASSERT_EQ(record.values.size(), truth::kDriveColumns.size() + kOwnOfEnav + 2);
   EXPECT_TRUE(std::isnan(record.values[ColumnOf(experiment, kDecisions)]));
   EXPECT_TRUE(std::isnan(record.values[ColumnOf(experiment, kLastTime)]));
   EXPECT_EQ(record.outcome, TrialOutcome::kNoPath);
@@ -304,15 +307,16 @@ TEST(OwnValuesTest, OfADriveThatFailedAreNone) {
   EXPECT_EQ(record.outcome, TrialOutcome::kNavigatorFault);
   EXPECT_EQ(truth::CauseOf(record), EndCause::kNavigatorThrew);
   EXPECT_FALSE(truth::IsFault(record)) << "the simulator did not fail";
-  ASSERT_EQ(record.values.size(), truth::kDriveColumns.size() + 2);
+  ASSERT_EQ(record.values.size(), truth::kDriveColumns.size() + kOwnOfEnav + 2);
   EXPECT_TRUE(std::isnan(record.values[ColumnOf(experiment, kDecisions)]));
   EXPECT_TRUE(std::isfinite(record.values[0]));
 }
 
 // A scenario of rockyard's own navigators keeps its columns.
-TEST(OwnValuesTest, OwnNavigatorsHaveNone) {
+TEST(OwnValuesTest, OfOwnNavigatorsEnavAloneHasSome) {
   const experiments::DriveExperiment experiment(Pathfinder("level_sand"));
-  EXPECT_EQ(experiment.schema().size(), truth::kDriveColumns.size());
+  EXPECT_EQ(experiment.schema().size(), truth::kDriveColumns.size() + kOwnOfEnav);
+  EXPECT_TRUE(experiment.schema().back().name.starts_with("enav."));
 }
 
 }  // namespace
