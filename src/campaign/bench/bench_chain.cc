@@ -26,8 +26,7 @@ std::string Link(std::string_view before, const std::string& cell, const truth::
                  std::string_view actions) {
   std::string text = fmt::format("{}\n{}\n{}\n{}\n{}\n", before, cell, record.trial,
                                  Name(record.outcome), core::Sha256(actions));
-  for (std::size_t i = 0; i < record.values.size(); ++i) {
-    const double value = record.values[i];
+  for (const double value : record.values) {
     text += core::Hex(std::isnan(value)
                           ? std::bit_cast<std::uint64_t>(std::numeric_limits<double>::quiet_NaN())
                           : std::bit_cast<std::uint64_t>(value));
@@ -99,7 +98,7 @@ std::vector<ChainLink> ParseChain(std::string_view csv, std::string_view source_
     csv.remove_prefix(std::min(csv.size(), line.size() + 1));
     const std::size_t first = line.find(',');
     const std::size_t second = line.find(',', first + 1);
-    if (first == line.npos || second == line.npos) fail(chain.size() + 2);
+    if (first == std::string_view::npos || second == std::string_view::npos) fail(chain.size() + 2);
     const auto cell = core::FiniteNumber(line.substr(0, first));
     const auto trial = core::FiniteNumber(line.substr(first + 1, second - first - 1));
     if (!cell || !trial || *cell < 0.0 || *trial < 0.0) fail(chain.size() + 2);

@@ -269,6 +269,7 @@ Standings MakeStandings(const std::vector<std::filesystem::path>& folders) {
     standings.entries.push_back(StandingOf(std::move(run), cells.back(), cells.front()));
   }
   std::vector<std::vector<double>> scores;
+  scores.reserve(cells.size());
   for (const ScoredCells& of : cells) scores.push_back(Scores(of, &ScoredDrive::arrived));
   SetRanks(standings.entries, scores);
   std::ranges::stable_sort(standings.entries, [](const Standing& a, const Standing& b) {

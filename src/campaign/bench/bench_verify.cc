@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <map>
 #include <mutex>
 #include <numeric>
@@ -169,7 +170,7 @@ void DriveAgain(const BenchVerifyRequest& request, const batch::ResultStore& sto
 
 double BenchVerification::ChanceToMiss(double share) const {
   // Without replacement: that no invented drive is among those driven again.
-  const auto invented = static_cast<std::int64_t>(share * static_cast<double>(drives) + 0.5);
+  const auto invented = std::llround(share * static_cast<double>(drives));
   double chance = 1.0;
   for (std::int64_t i = 0; i < driven_again; ++i) {
     chance *= std::max(0.0, 1.0 - static_cast<double>(invented) / static_cast<double>(drives - i));
@@ -194,14 +195,14 @@ BenchVerification VerifyBench(const BenchVerifyRequest& request,
           ? verification.run.seed
           : BeaconSeed(verification.run.suite_digest, verification.run.beacon);
   if (seed != verification.run.seed) {
-    verification.findings.push_back("the seed is not that of the beacon");
+    verification.findings.emplace_back("the seed is not that of the beacon");
   }
   if (ChainStart(verification.run.document, store) != verification.run.start) {
     verification.findings.push_back(
         fmt::format("{} is not what its chain begins with", kBenchFile));
   }
   if (!request.entry.empty() && ReadEntry(request.entry).digest != verification.run.entry_digest) {
-    verification.findings.push_back("the entry is not the one that drove");
+    verification.findings.emplace_back("the entry is not the one that drove");
   }
   CheckChain(verification.run, store, verification.findings);
   std::vector<StoredDrive> drives;

@@ -74,7 +74,7 @@ void EntryParams::Visit(core::FieldVisitor& v) {
   v.Require("name", !name.empty(), "is missing", "give the entry a name of a word or two");
   constexpr std::string_view kLetters =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.+";
-  v.Require("name", name.find_first_not_of(kLetters) == name.npos && name.size() <= 40,
+  v.Require("name", name.find_first_not_of(kLetters) == std::string::npos && name.size() <= 40,
             "is no name for tables and folders",
             "use up to 40 letters, digits and the characters _ - . +");
   v.Require("navigator", !navigator.empty(), "is missing",

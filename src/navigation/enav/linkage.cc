@@ -71,8 +71,8 @@ Interval Scaled(double factor, const Interval& p) { return Times({factor, factor
 }  // namespace
 
 Interval NoInterval() {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  return {kInfinity, -kInfinity};
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  return {kNone, -kNone};
 }
 
 void Include(double value, Interval& interval) {

@@ -43,8 +43,9 @@ EnavParams ScaledTo(EnavParams params, double wheelbase_m) {
 }
 
 PathTree::PathTree(const EnavTreeParams& params) {
+  const std::int64_t half = params.num_turns / 2;
   for (std::int64_t i = 0; i < params.num_turns; ++i) {
-    turns_rad_.push_back(params.turn_span_rad * static_cast<double>(i - params.num_turns / 2) /
+    turns_rad_.push_back(params.turn_span_rad * static_cast<double>(i - half) /
                          static_cast<double>(params.num_turns));
   }
   // The last pose of an arc is its end, wherever the spacing falls.
