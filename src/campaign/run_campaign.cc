@@ -112,6 +112,7 @@ class Campaign {
     work.times().Begin(run.folder);
     if (process.begins()) {
       for (const std::string& note : run.notes) journal_.Remark(note);
+      if (request_.opened) request_.opened(run.folder, run.store.Finished().empty());
     }
     const Outcome outcome = RunAndReport(work.work(), run, process);
     if (const auto problem = work.times().problem()) journal_.Warn(*problem);

@@ -46,6 +46,9 @@ struct CampaignRequest {
   // Is given each cell before its trials run, with its number, in every process that runs some.
   // Must change no record: benchmarks record what navigators do.
   std::function<void(std::size_t index, CampaignCell& cell)> prepare = {};
+  // Called once the store is open, by the process that makes it, before trials run. `anew`: it
+  // holds none.
+  std::function<void(const std::filesystem::path& folder, bool anew)> opened = {};
   // What a program that links rockyard is known by, beside rockyard's own build; "" of the command.
   std::string program = {};
 

@@ -38,6 +38,18 @@ void WriteActions(const fs::path& file, const std::string& log) {
   if (!stream) fs::remove(file, error);
 }
 
+// Renames what the benchmark has of a run whose store was set aside: NAME.old-1, ...
+void SetAside(const fs::path& folder) {
+  for (const char* name : {kBenchFile, kChainFile, "actions"}) {
+    std::error_code error;
+    if (!fs::exists(folder / name, error)) continue;
+    int number = 1;
+    while (fs::exists(folder / fmt::format("{}.old-{}", name, number), error)) ++number;
+    fs::rename(folder / name, folder / fmt::format("{}.old-{}", name, number), error);
+    if (error) core::FailOnDisk(folder / name, "cannot be renamed", error);
+  }
+}
+
 // Returns the campaign of a request, whose navigators are recorded below `folder`.
 CampaignRequest Recording(const BenchRequest& request, const BenchEntry& entry,
                           const fs::path& folder, std::optional<std::int64_t> seed) {
@@ -45,6 +57,9 @@ CampaignRequest Recording(const BenchRequest& request, const BenchEntry& entry,
   campaign.folder = folder;
   campaign.overrides = entry.settings;
   campaign.seed = seed;
+  campaign.opened = [](const fs::path& opened, bool anew) {
+    if (anew) SetAside(opened);
+  };
   campaign.prepare = [folder = fs::absolute(folder)](std::size_t index, CampaignCell& cell) {
     const auto write = [folder, index, name = cell.name](std::uint64_t random_seed,
                                                          const std::string& log) {
@@ -56,18 +71,6 @@ CampaignRequest Recording(const BenchRequest& request, const BenchEntry& entry,
         });
   };
   return campaign;
-}
-
-// Renames what the benchmark has of a run that is set aside, as its store is: NAME.old-1, ...
-void SetAside(const fs::path& folder) {
-  for (const char* name : {kBenchFile, kChainFile, "actions"}) {
-    std::error_code error;
-    if (!fs::exists(folder / name, error)) continue;
-    int number = 1;
-    while (fs::exists(folder / fmt::format("{}.old-{}", name, number), error)) ++number;
-    fs::rename(folder / name, folder / fmt::format("{}.old-{}", name, number), error);
-    if (error) core::FailOnDisk(folder / name, "cannot be renamed", error);
-  }
 }
 
 // Throws where the actions of a drive are not there that its navigator did not break off.
@@ -165,7 +168,6 @@ WorkResult RunBench(const BenchRequest& request, const RunObserver& observer, co
             : DefaultFolder(fmt::format("bench-{}-{}", suite.name, entry->manifest.name),
                             seed.value_or(static_cast<std::int64_t>(suite.seed)));
     sweep.campaign = Recording(request, *entry, folder, seed);
-    if (request.campaign.existing == ExistingRun::kSetAside) SetAside(folder);
     return Outcome::kDone;
   });
   if (result.outcome != Outcome::kDone) return result;

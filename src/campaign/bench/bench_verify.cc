@@ -17,6 +17,7 @@
 #include "campaign/bench/bench_chain.h"
 #include "campaign/run_source.h"
 #include "campaign/scenario_names.h"
+#include "core/digest.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json_text.h"
@@ -43,12 +44,17 @@ struct StoredDrive {
 // Whether the cells of the store are those of the suite with what the entry may set.
 void CheckCells(const BenchRun& run, const std::string& suite_word, const batch::ResultStore& store,
                 std::vector<std::string>& findings) {
-  const scenario::Sweep suite = scenario::LoadSweep(
-      ScenarioFile(suite_word.empty() ? "bench/" + run.suite : suite_word, Wanted::kSweep),
-      {.overrides = SettingsOf(*run.document.Find("entry"), run.manifest),
-       .trials = run.layouts,
-       .seed = run.seed,
-       .sealed = true});
+  const std::string file =
+      ScenarioFile(suite_word.empty() ? "bench/" + run.suite : suite_word, Wanted::kSweep);
+  // The seed of a test depends on it: with another digest somebody could look for a better seed.
+  if (core::Sha256(scenario::LoadSweep(file, {.sealed = true}).document) != run.suite_digest) {
+    findings.emplace_back("the digest of the suite is another one");
+  }
+  const scenario::Sweep suite =
+      scenario::LoadSweep(file, {.overrides = SettingsOf(*run.document.Find("entry"), run.manifest),
+                                 .trials = run.layouts,
+                                 .seed = run.seed,
+                                 .sealed = true});
   const auto& cells = store.identity().cells;
   if (cells.size() != suite.cells.size()) {
     findings.push_back(

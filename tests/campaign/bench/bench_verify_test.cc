@@ -180,15 +180,35 @@ TEST_F(BenchVerify, AChainThatIsCutOff) {
               ElementsAre(HasSubstr("does not end with the head"), HasSubstr("has 8 links")));
 }
 
-TEST_F(BenchVerify, ActionsThatCouldNotBeWrittenEndTheRun) {
-  Write(Path("run/actions"), "a file where a folder is needed");
+TEST_F(BenchVerify, ActionsThatAreMissingEndTheRun) {
+  const fs::path run = Driven();
+  fs::remove(run / ActionFile(0, "near/few", NavigatorSeed(4, 1)));
   BenchRequest request = Request("run");
-  request.campaign.existing = ExistingRun::kResumeOrSetAside;
+  request.campaign.existing = ExistingRun::kResume;
   const WorkResult result = RunBench(request);
   EXPECT_EQ(result.outcome, Outcome::kFailed);
   ASSERT_EQ(result.problems.size(), 1u);
-  EXPECT_THAT(result.problems[0].reason, HasSubstr("were not written"));
-  EXPECT_FALSE(fs::exists(Path("run") / kBenchFile));
+  EXPECT_THAT(result.problems[0].reason, HasSubstr("trial 1 of near/few were not written"));
+}
+
+TEST_F(BenchVerify, BadInputSetsNothingAside) {
+  const std::string head = ReadBenchRun(Driven()).head;
+  BenchRequest request = Request("run");
+  Write(Path("entry.json"), R"({"name": "mine", "navigator": "pathfinder",
+                                "set": {"navigation.pathfinder.no_such_key": 2}})");
+  request.campaign.existing = ExistingRun::kSetAside;
+  EXPECT_EQ(RunBench(request).outcome, Outcome::kBadInput);
+  EXPECT_EQ(ReadBenchRun(Path("run")).head, head);
+}
+
+TEST_F(BenchVerify, ASeedThatWasLookedForByTheSuitesDigest) {
+  BenchRequest request = Request("run");
+  request.beacon = "round 1";
+  ASSERT_EQ(RunBench(request).outcome, Outcome::kDone);
+  core::JsonValue document = core::ParseJson(Read(Path("run") / kBenchFile), kBenchFile);
+  document.Set("suite_digest", core::JsonValue("any other"));
+  Write(Path("run") / kBenchFile, core::DumpJson(document));
+  EXPECT_THAT(Verify(Path("run"), 0).findings, Contains("the digest of the suite is another one"));
 }
 
 // P(no invented drive among n of N) by factorials.
