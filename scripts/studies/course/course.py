@@ -70,7 +70,7 @@ def course_row(args, expected):
     row["passed"] = bool(row["arrivals_percent"] >= row["least_arrivals_percent"]
                          and not row["path_ratio"] > row["largest_path_ratio"]
                          and row["turned_deg"] <= row["most_turned_deg"])
-    row["other_ends"] = study.others(dict(sorted(run.outcomes.items())), "goal_reached", "simulator_fault", none="")
+    row["other_ends"] = study.ends(run, "goal_reached", none="")
     return row | {"program": study.program(run)}
 
 

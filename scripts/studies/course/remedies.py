@@ -124,7 +124,7 @@ def course_rows(args, name, navigator):
             row["aside_m"] = sum(aside_m) / len(aside_m)
         pair(row, "papers", runs["papers"], run)
         pair(row, "all", runs["all"], run)
-        row["other_ends"] = study.others(dict(sorted(run.outcomes.items())), "goal_reached", "simulator_fault", none="")
+        row["other_ends"] = study.ends(run, "goal_reached", none="")
         rows.append(row | {"program": study.program(run)})
     return rows
 

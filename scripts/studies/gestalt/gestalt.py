@@ -151,7 +151,7 @@ def dense_row(runs, reading, cell, fidelity):
     moves, trials = total("moves"), len(run.counted)
     ratio = total("dead_reckoned_distance_m") / total("true_distance_m")
     return [cell, name.replace("_", "-"), reading, percent(run.declared_success), percent(run.true_success),
-            study.others(run.summary["outcomes"], *study.ARRIVED), f"{moves / trials:.0f}",
+            study.ends(run, *study.ARRIVED), f"{moves / trials:.0f}",
             f"{total('rear_image_sets') / trials:.1f}", f"{100.0 * total('reversals') / moves:.0f}",
             f"{total('safeguard_stops') / trials:.1f}", f"{100.0 * (ratio - 1.0):+.0f}"]
 

@@ -68,7 +68,7 @@ def summary_row(rover, abundance, arm, run):
     row = {"rover": rover, "k_per_m2": abundance, "arm": arm, "trials": len(run.counted)}
     for kind, rate in (("declared", run.declared_success), ("true", run.true_success)):
         row |= zip((kind, f"{kind}_low", f"{kind}_high"), rate)
-    row["failures"] = study.others(dict(sorted(run.outcomes.items())), *study.ARRIVED, "simulator_fault", none="")
+    row["failures"] = study.ends(run, *study.ARRIVED, none="")
     return row | {"program": study.program(run)}
 
 

@@ -294,7 +294,7 @@ def shares(rates):
 
 
 def failures(run):
-    return shared.others(run.summary["outcomes"], *shared.ARRIVED)
+    return shared.ends(run, *shared.ARRIVED)
 
 
 def causes(study):

@@ -17,6 +17,7 @@ from .package import ROOT, ry
 sys.path.append(str(ROOT / "scripts"))  # studies use the package `calibrations`
 rates = ry.rates
 ARRIVED = ("goal_reached", "false_goal")  # as the rover believes
+NO_PATH = ("gave_up", "noticed_stuck", "patience_distance", "patience_turning", "patience_time")  # who ended the drive
 
 
 def called(command, codes=(0,)):
@@ -146,6 +147,13 @@ def nested(values, document):
 def others(outcomes, *but, none="-"):
     """Outcomes with their counts, by name; `but`: what is left out."""
     return ", ".join(f"{name} {count}" for name, count in outcomes.items() if count and name not in but) or none
+
+
+def ends(run, *but, none="-"):
+    """Outcomes of a run with their counts, by name; those of no_path by who ended the drive; `but`: what is left out."""
+    counts = dict(run.summary["outcomes"])
+    counts |= {f"no_path ({cause})": run.summary["causes"].get(cause, 0) for cause in NO_PATH if counts.get("no_path")}
+    return others(counts, *but, "no_path", "simulator_fault", none=none)
 
 
 def program(run_or_sweep):
