@@ -9,7 +9,6 @@ bench.svg and the tables of the page.
 """
 
 import json
-import subprocess
 import sys
 from pathlib import Path
 
@@ -17,7 +16,6 @@ sys.path[0] = str(Path(__file__).resolve().parents[1])  # what studies share
 import study  # noqa: E402
 
 MANIFESTS = study.ROOT / "examples/bench"
-NAVIGATORS = study.ROOT / "examples/navigators"
 PLUGINS = ("a_star", "arc_planner", "bug2", "potential_field")
 BASELINE = "gestalt"
 CELL_W, CELL_H, LABEL_W, TOP = 11, 18, 130, 150
@@ -26,9 +24,7 @@ CELL_W, CELL_H, LABEL_W, TOP = 11, 18, 130, 150
 def plugin_entry(name, out):
     """A folder with the library of an example and its manifest."""
     folder = out / "entries" / name
-    folder.mkdir(parents=True, exist_ok=True)
-    subprocess.run(["g++", "-std=c++20", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-I", study.ROOT / "src",
-                    "-I", "/usr/include/eigen3", NAVIGATORS / f"{name}.cc", "-o", folder / f"lib{name}.so"], check=True)
+    study.example_navigator(name, folder)
     manifest = {"name": name, "navigator": name, "plugin": f"lib{name}.so",
                 "about": "An example of a plugin.", "authors": "rockyard"}
     (folder / "entry.json").write_text(json.dumps(manifest, indent=2) + "\n", encoding="utf-8")

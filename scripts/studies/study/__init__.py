@@ -114,6 +114,16 @@ def run_scenario(args, scenario, folder, values, existing=("--resume", "--force"
     return ry.Run(folder)
 
 
+def example_navigator(name, folder):
+    """The library of a plugin of examples/navigators, built into a folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    library = folder / f"lib{name}.so"
+    if not library.exists():  # one that is there may be in use
+        run(["g++", "-std=c++20", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-I", ROOT / "src", "-I",
+             "/usr/include/eigen3", ROOT / f"examples/navigators/{name}.cc", "-o", library])
+    return library
+
+
 def trials_of(rockyard, scenario, trials, seed, values):
     """The trials of a run that is not kept, as a frame without simulator faults."""
     with tempfile.TemporaryDirectory() as folder:
