@@ -122,4 +122,4 @@ def by_layout(trials, value=None):
 
 def estimate(values, digits=1, scale=100.0):
     """A mean over layouts with Student's 95 % interval, as text."""
-    return study.with_interval(study.rates.mean(np.asarray(values, float)), digits, scale)
+    return study.with_interval(study.rates.mean(np.asarray(values, float), law="student"), digits, scale)

@@ -40,7 +40,7 @@ STEPS = [("1995: light stripe, dead reckoning, behaviour", ("behaviour, light st
          ("2012: splines while driving, remedied", ("csad, remedied", VISUAL)),
          ("2020: ENav in its place", ("enav", VISUAL)),
          ("a perfect pose", ("enav", PERFECT)), ("exact points", ("enav", IDEAL))]
-CHECKS = "enav_checks_per_cycle"
+CHECKS = "enav.checks_per_cycle"
 
 
 class Drives:
