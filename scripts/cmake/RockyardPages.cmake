@@ -13,7 +13,7 @@ include(GNUInstallDirs)
 option(ROCKYARD_PAGE_TOOLS
        "Install the npm packages with which pages are bundled and tested (needs node, npm)" OFF)
 
-set(ROCKYARD_PAGE_FILES report.html replay.html THIRD_PARTY.txt)
+set(ROCKYARD_PAGE_FILES report.html replay.html bench.html THIRD_PARTY.txt)
 
 # Installs the packages of the lock file below FOLDER, once for each lock file.
 function(rockyard_install_npm_packages FOLDER)
@@ -67,7 +67,7 @@ function(rockyard_bundle_pages FOLDER_VARIABLE)
     *.ts *.css *.mjs page.html tsconfig.json)
   list(FILTER sources EXCLUDE REGEX "^(built|node_modules)/")
   # Copies of files that are gone would still be checked and might be bundled.
-  file(GLOB_RECURSE old RELATIVE ${work} ${work}/report/* ${work}/replay/* ${work}/shared/*)
+  file(GLOB_RECURSE old RELATIVE ${work} ${work}/report/* ${work}/replay/* ${work}/bench/* ${work}/shared/*)
   list(REMOVE_ITEM old ${sources})
   foreach(file ${old})
     file(REMOVE ${work}/${file})
@@ -102,7 +102,7 @@ function(rockyard_embed_pages SOURCE_VARIABLE)
   set(script ${PROJECT_SOURCE_DIR}/scripts/cmake/embed_pages.cmake)
   set(ROCKYARD_EMBEDDED_PAGES ${pages} CACHE INTERNAL "The pages that the program holds")
   set(embedded ${PROJECT_BINARY_DIR}/embedded_pages.cc)
-  add_custom_command(OUTPUT ${embedded} DEPENDS ${script} ${pages}/report.html ${pages}/replay.html
+  add_custom_command(OUTPUT ${embedded} DEPENDS ${script} ${pages}/report.html ${pages}/replay.html ${pages}/bench.html
     COMMAND ${CMAKE_COMMAND} -DPAGES=${pages} -DOUT=${embedded} -P ${script}
     COMMENT "Embedding the pages for a browser")
   # Compilers warn of literals of this length.

@@ -25,4 +25,5 @@ file(WRITE ${OUT} "// Written by scripts/cmake/embed_pages.cmake.\n#include \"we
                   "namespace rockyard::web {\n\n")
 append_page(kReportPage ${PAGES}/report.html)
 append_page(kReplayPage ${PAGES}/replay.html)
+append_page(kBenchPage ${PAGES}/bench.html)
 file(APPEND ${OUT} "}  // namespace rockyard::web\n")

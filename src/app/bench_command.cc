@@ -20,6 +20,7 @@
 #include "app/progress_line.h"
 #include "app/run_display.h"
 #include "campaign/bench/bench.h"
+#include "campaign/bench/bench_page.h"
 #include "campaign/bench/bench_standings.h"
 #include "campaign/bench/bench_verify.h"
 #include "campaign/scenario_names.h"
@@ -69,6 +70,7 @@ void AddRun(CLI::App& bench, ExitCode& exit_code) {
     constexpr std::string_view kProgram = "rockyard ";
     options->campaign.resume_command =
         "rockyard bench " + ResumeText(*command).substr(kProgram.size());
+    options->campaign.names_next = false;
     options->request.campaign = options->campaign.Request();
     SharedFlag output_failed;
     const campaign::RunObserver shown = ShowRun(options->campaign, output_failed);
@@ -91,6 +93,15 @@ struct BenchReportOptions {
   bool json = false;
 };
 
+// Returns the words that make the page again.
+std::string CommandText(const BenchReportOptions& options) {
+  std::string text = "rockyard bench report";
+  for (const fs::path& folder : options.folders) {
+    text += " " + campaign::ShellPath(folder.string());
+  }
+  return text + " --out " + campaign::ShellPath(options.out);
+}
+
 void AddReport(CLI::App& bench) {
   auto options = std::make_shared<BenchReportOptions>();
   CLI::App* command = bench.add_subcommand(
@@ -98,7 +109,7 @@ void AddReport(CLI::App& bench) {
   command->add_option("RUN", options->folders, "folders of runs; the first is the baseline")
       ->required();
   command->add_option("--out", options->out,
-                      "folder for tables; it is made (default: nothing is written)");
+                      "folder for tables and a page; it is made (default: nothing is written)");
   AddExistingFiles(*command, options->existing);
   command->add_flag("--json", options->json, "for programs");
   command->callback([options] {
@@ -107,7 +118,7 @@ void AddReport(CLI::App& bench) {
       folder.emplace(options->out, options->existing,
                      campaign::OutputPlan{.command = "bench",
                                           .names = {"standings.csv", "groups.csv", "cells.csv",
-                                                    "ends.csv", "bench.md"},
+                                                    "ends.csv", "bench.md", "index.html"},
                                           .inputs = options->folders});
     }
     const campaign::Standings standings = campaign::MakeStandings(options->folders);
@@ -116,14 +127,17 @@ void AddReport(CLI::App& bench) {
       folder->Write("groups", "groups.csv", standings.Groups().Csv());
       folder->Write("cells", "cells.csv", standings.Cells().Csv());
       folder->Write("ends", "ends.csv", standings.Ends().Csv());
-      folder->Write("page", "bench.md", standings.Markdown());
+      folder->Write("text", "bench.md", standings.Markdown());
+      folder->Write("page", "index.html", campaign::BenchPage(standings, CommandText(*options)));
       folder->Finish();
     }
     if (options->json) {
       PrintJson(standings.Table().Json("") + "\n");
     } else {
-      Print(fmt::format("{}: {} layouts of each cell\n\n{}{}", standings.suite, standings.layouts,
-                        standings.Markdown(), folder ? FilesText(folder->files()) : std::string()));
+      const std::string& why = standings.why_no_regret;
+      Print(fmt::format("{}: {} layouts of each cell\n\n{}{}{}", standings.suite, standings.layouts,
+                        standings.Markdown(), why.empty() ? "" : why + "\n",
+                        folder ? FilesText(folder->files()) : std::string()));
     }
   });
 }

@@ -33,6 +33,7 @@ struct CampaignOptions {
   std::string allocate = "uniform";
   std::string interval = "wilson";
   batch::StoppingRule rule;    // where until_half_width is above 0; Request() sets its half-width
+  bool names_next = true;      // false: the command itself says what comes next
   std::string resume_command;  // ResumeText of the command that was parsed
 
   Output output() const;

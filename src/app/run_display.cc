@@ -109,9 +109,10 @@ campaign::RunObserver ShowRun(const CampaignOptions& options, SharedFlag& output
   if (options.output() != Output::kQuiet) ShowProgress(observer);
   observer.reported = [&](const campaign::FolderReport& report, batch::BatchEnd end) {
     const bool stopped = end == batch::BatchEnd::kStopped;
-    ShowReport(report, {.output = options.output(),
-                        .resume = stopped ? options.resume_command : "",
-                        .next = stopped || options.request.traces.rules.empty()});
+    ShowReport(report,
+               {.output = options.output(),
+                .resume = stopped ? options.resume_command : "",
+                .next = stopped || (options.names_next && options.request.traces.rules.empty())});
     if (OutputFailed()) output_failed.Set();
   };
   if (options.output() == Output::kText) {

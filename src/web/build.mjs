@@ -9,7 +9,7 @@ import path from "node:path";
 import { build } from "esbuild";
 import { notices } from "./notices.mjs";
 
-const PAGES = ["report", "replay"];
+const PAGES = ["report", "replay", "bench"];
 
 const out = process.argv[2];
 if (!out) {

@@ -23,10 +23,22 @@ void Fill(std::string& html, std::string_view mark, std::string_view value) {
   html.replace(at, mark.size(), value);
 }
 
+std::string_view Bundled(Page page) {
+  switch (page) {
+    case Page::kReport:
+      return kReportPage;
+    case Page::kReplay:
+      return kReplayPage;
+    case Page::kBench:
+      break;
+  }
+  return kBenchPage;
+}
+
 }  // namespace
 
 std::string MakePage(Page page, std::string_view title, std::string_view payload_json) {
-  std::string html(page == Page::kReport ? kReportPage : kReplayPage);
+  std::string html(Bundled(page));
   Fill(html, "<!-- title -->", core::EscapeXml(title));
   Fill(html, "<!-- payload -->", core::Base64(Gzip(payload_json)));
   return html;

@@ -6,9 +6,9 @@
 
 namespace rockyard::web {
 
-enum class Page { kReport, kReplay };
+enum class Page { kReport, kReplay, kBench };
 
-// The page that shows `payload_json` (shapes: report/payload.ts, replay/payload.ts of this folder).
+// The page that shows `payload_json` (shapes: payload.ts in the folders report, replay and bench).
 // The data is compressed (gzip) and in base64, so nothing in it can be read as markup; the title is
 // escaped. Cost: about 20 ns per byte.
 std::string MakePage(Page page, std::string_view title, std::string_view payload_json);
@@ -20,5 +20,6 @@ std::string Gzip(std::string_view bytes);
 // The pages as build.mjs made them (scripts/cmake/embed_pages.cmake).
 extern const std::string_view kReportPage;
 extern const std::string_view kReplayPage;
+extern const std::string_view kBenchPage;
 
 }  // namespace rockyard::web

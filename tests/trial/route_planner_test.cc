@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "terrain/field.h"
+#include "trial/course/free_grid.h"
 #include "trial/course/goal_designation.h"
 #include "trial/course/layout.h"
 #include "trial/shipped_trials.h"

@@ -73,6 +73,47 @@ CampaignRequest Recording(const BenchRequest& request, const BenchEntry& entry,
   return campaign;
 }
 
+// Returns the problems of a suite with the settings of an entry as the entry's: without them the
+// suite was sound.
+std::vector<core::Problem> AsOfEntry(std::vector<core::Problem> problems, const fs::path& suite,
+                                     const fs::path& manifest) {
+  for (core::Problem& problem : problems) {
+    const std::string before = suite.string() + ": ";
+    if (!problem.path.starts_with(before)) continue;
+    std::string path = problem.path.substr(before.size());
+    constexpr std::string_view kCell = "cell ";
+    const std::size_t end = path.find(": ");
+    if (path.starts_with(kCell) && end != std::string::npos) path.erase(0, end + 2);
+    problem.path = manifest.string() + ": " + path;
+  }
+  return problems;
+}
+
+// Throws where the run in the folder was begun with another seed, by another entry or program: what
+// a store would say of it speaks of cells.
+void CheckBegun(const BenchRequest& request, const BenchEntry& entry, const fs::path& folder,
+                std::int64_t seed) {
+  if (request.campaign.existing != ExistingRun::kResume || !batch::ResultStore::HasBegun(folder)) {
+    return;
+  }
+  const batch::ResultStore store = batch::ResultStore::Read(folder);
+  const batch::CampaignIdentity& begun = store.identity();
+  constexpr const char* kElse =
+      "choose another folder with --out, or start anew with --force and without --resume";
+  const auto require = [&](bool same, const std::string& what, const std::string& reason) {
+    if (!same) throw core::UserError(what, reason + " " + folder.string(), kElse);
+  };
+  require(begun.cells.front().seed == static_cast<std::uint64_t>(seed), "--beacon",
+          "gives another seed than that of the run in");
+  require(begun.settings == entry.settings, entry.file.string(),
+          "is not the entry that began the run in");
+  for (const std::string& build : store.Builds()) {
+    require(build == BuildName(request.campaign.program), "this program",
+            fmt::format("is {}, and another build, {}, began the run in",
+                        BuildName(request.campaign.program), build));
+  }
+}
+
 // Throws where the actions of a drive are not there that its navigator did not break off.
 void RequireActions(const fs::path& folder, const batch::ResultStore& store) {
   for (std::size_t cell = 0; cell < store.identity().cells.size(); ++cell) {
@@ -167,11 +208,19 @@ WorkResult RunBench(const BenchRequest& request, const RunObserver& observer, co
             ? request.campaign.folder
             : DefaultFolder(fmt::format("bench-{}-{}", suite.name, entry->manifest.name),
                             seed.value_or(static_cast<std::int64_t>(suite.seed)));
+    CheckBegun(request, *entry, folder, seed.value_or(static_cast<std::int64_t>(suite.seed)));
     sweep.campaign = Recording(request, *entry, folder, seed);
     return Outcome::kDone;
   });
   if (result.outcome != Outcome::kDone) return result;
-  result = RunSweep(sweep, observer, stop);
+  RunObserver told = observer;
+  if (told.problems) {
+    told.problems = [&](const std::vector<core::Problem>& problems) {
+      observer.problems(AsOfEntry(problems, sweep.file, entry->file));
+    };
+  }
+  result = RunSweep(sweep, told, stop);
+  result.problems = AsOfEntry(std::move(result.problems), sweep.file, entry->file);
   if (result.outcome != Outcome::kDone || !IsFirstRank()) return result;
   const WorkResult closed = Recorded(observer, [&](Journal&) {
     WriteBenchFiles(*entry, suite_digest, request.beacon, sweep.campaign.folder);

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 #include <span>
 #include <utility>
 
 #include "batch/result_store.h"
+#include "campaign/bench/bench_regret.h"
 #include "core/error.h"
 #include "statistics/equivalence.h"
 #include "truth/record.h"
@@ -24,75 +24,10 @@ constexpr double kAlpha = 0.05;
 // errors in all is seen with that chance.
 constexpr double kToldErrors = 1.959964 + 0.841621;
 
-// What counts of one drive.
-struct ScoredDrive {
-  bool arrived = false;
-  bool declared = false;
-  bool unsafe = false;
-  bool scraped = false;
-  truth::TrialOutcome outcome = truth::TrialOutcome::kSimulatorFault;
-  double no_progress_m = 0.0;
-  double way_m = 0.0;
-  double time_s = 0.0;
-  double energy_wh = 0.0;
-};
-
-struct ScoredCell {
-  std::string name;
-  double weight = 0.0;
-  std::vector<ScoredDrive> drives;  // by layout
-};
-
-using ScoredCells = std::vector<ScoredCell>;
 using Flag = bool ScoredDrive::*;
 
-std::string GroupOf(const std::string& cell) { return cell.substr(0, cell.find('/')); }
-
-std::size_t ColumnOf(const truth::RecordSchema& schema, std::string_view name) {
-  const auto found =
-      std::ranges::find_if(schema, [&](const truth::ValueInfo& info) { return info.name == name; });
-  return static_cast<std::size_t>(found - schema.begin());
-}
-
-ScoredCells ReadCells(const BenchRun& run) {
-  const batch::ResultStore store = batch::ResultStore::Read(run.folder);
-  const truth::RecordSchema& schema = store.identity().schema;
-  const std::size_t way = ColumnOf(schema, "true_distance_m");
-  const std::size_t time = ColumnOf(schema, "active_time_s");
-  const std::size_t energy = ColumnOf(schema, "active_energy_wh");
-  const std::size_t scrapes = ColumnOf(schema, "scrapes");
-  const std::size_t no_progress = ColumnOf(schema, "no_progress_distance_m");
-  ScoredCells cells;
-  std::map<std::string, int> sizes;
-  for (int i = 0; i < store.cells(); ++i) {
-    ScoredCell cell;
-    cell.name = store.identity().cells.at(static_cast<std::size_t>(i)).name;
-    ++sizes[GroupOf(cell.name)];
-    for (const truth::Record& record : store.Load(i)) {
-      ScoredDrive drive;
-      drive.outcome = record.outcome;
-      drive.arrived = TrueSuccess(record.outcome);
-      drive.declared = DeclaredSuccess(record.outcome);
-      drive.unsafe = record.outcome == truth::TrialOutcome::kTipOver ||
-                     record.outcome == truth::TrialOutcome::kHighCentred;
-      if (!record.values.empty()) {
-        drive.scraped = record.values.at(scrapes) > 0.0;
-        drive.no_progress_m = record.values.at(no_progress);
-        drive.way_m = record.values.at(way);
-        drive.time_s = record.values.at(time);
-        drive.energy_wh = record.values.at(energy);
-      }
-      cell.drives.push_back(drive);
-    }
-    if (static_cast<std::int64_t>(cell.drives.size()) != run.layouts) {
-      throw core::UserError(run.folder.string(), "lacks drives of " + cell.name,
-                            "go on with the run: rockyard bench run ... --resume");
-    }
-    cells.push_back(std::move(cell));
-  }
-  const auto groups = static_cast<double>(sizes.size());
-  for (ScoredCell& cell : cells) cell.weight = 1.0 / (groups * sizes[GroupOf(cell.name)]);
-  return cells;
+bool IsIn(const ScoredCell& cell, const std::string& group) {
+  return group.empty() || GroupOf(cell.name) == group;
 }
 
 // Returns the score of each layout, over the cells of one group or of all ("").
@@ -100,7 +35,7 @@ std::vector<double> Scores(const ScoredCells& cells, Flag flag, const std::strin
   std::vector<double> scores(cells.front().drives.size(), 0.0);
   double total = 0.0;
   for (const ScoredCell& cell : cells) {
-    if (!group.empty() && GroupOf(cell.name) != group) continue;
+    if (!IsIn(cell, group)) continue;
     total += cell.weight;
     for (std::size_t i = 0; i < scores.size(); ++i) {
       if (cell.drives[i].*flag) scores[i] += cell.weight;
@@ -125,6 +60,39 @@ Estimated Estimate(const std::vector<double>& scores) {
 
 double MeanOf(const std::vector<double>& scores) {
   return statistics::PairedMeans(scores).difference;
+}
+
+// Returns the mean regret over drives, weighted as their cells: a ratio of two sums over layouts,
+// whose standard error is that of its residuals (Cochran 1977, Sampling Techniques, sec. 6.4).
+Regret RegretOf(const ScoredCells& cells, const std::string& group = "") {
+  struct Sums {
+    double regret = 0.0;
+    double weight = 0.0;
+  };
+  std::vector<Sums> layouts(cells.front().drives.size());
+  Sums all;
+  Regret regret;
+  for (const ScoredCell& cell : cells) {
+    if (!IsIn(cell, group)) continue;
+    for (std::size_t i = 0; i < layouts.size(); ++i) {
+      if (std::isnan(cell.drives[i].regret)) continue;
+      layouts[i].regret += cell.weight * cell.drives[i].regret;
+      layouts[i].weight += cell.weight;
+      all.regret += cell.weight * cell.drives[i].regret;
+      all.weight += cell.weight;
+      ++regret.drives;
+    }
+  }
+  // Layouts in which nothing arrives say nothing.
+  std::erase_if(layouts, [](const Sums& of) { return of.weight == 0.0; });
+  const double mean = all.regret / all.weight;
+  const double mean_weight = all.weight / static_cast<double>(layouts.size());
+  std::vector<double> values;
+  for (const Sums& of : layouts) {
+    values.push_back(mean + (of.regret - mean * of.weight) / mean_weight);
+  }
+  regret.mean = Estimate(values);
+  return regret;
 }
 
 Verdict VerdictOf(const MeanDifference& means) {
@@ -165,7 +133,8 @@ std::vector<ScoredPart> PartsOf(const ScoredCells& cells, const ScoredCells& bas
     };
     const std::vector<double> own = scores(cells);
     const std::vector<double> others = scores(baseline);
-    parts.push_back({name, MeanOf(own), MeanOf(others), Estimate(Less(own, others))});
+    parts.push_back({name, MeanOf(own), MeanOf(others), Estimate(Less(own, others)),
+                     by_group ? RegretOf(cells, name) : RegretOf({cells[c]})});
   }
   return parts;
 }
@@ -205,13 +174,16 @@ Standing StandingOf(BenchRun run, const ScoredCells& cells, const ScoredCells& b
   standing.way_ratio = RatioOf(cells, baseline, &ScoredDrive::way_m);
   standing.time_ratio = RatioOf(cells, baseline, &ScoredDrive::time_s);
   standing.energy_ratio = RatioOf(cells, baseline, &ScoredDrive::energy_wh);
+  standing.regret = RegretOf(cells);
   SetEnds(standing, cells);
   standing.groups = PartsOf(cells, baseline, true);
   standing.cells = PartsOf(cells, baseline, false);
+  standing.drives = cells;
   return standing;
 }
 
-// Sets the ranks that are possible where all pairs of entries are compared at once.
+// Sets the ranks that are possible where all pairs of entries are compared at once, and which of
+// them are told apart.
 void SetRanks(std::vector<Standing>& entries, const std::vector<std::vector<double>>& scores) {
   const auto count = static_cast<int>(entries.size());
   const double pairs = count * (count - 1) / 2.0;
@@ -224,26 +196,33 @@ void SetRanks(std::vector<Standing>& entries, const std::vector<std::vector<doub
           Estimate(statistics::PairedMeans(Less(scores[i], scores[j])), confidence);
       if (difference.interval.high < 0.0) ++entries[i].best_rank;
       if (difference.interval.low > 0.0) --entries[i].worst_rank;
+      if (difference.interval.high >= 0.0 && difference.interval.low <= 0.0) {
+        entries[i].not_told_from.insert(entries[j].run.name());
+      }
     }
   }
 }
 
 void RequireAlike(const BenchRun& run, const BenchRun& first) {
-  const auto require = [&](bool alike, const char* what) {
-    if (alike) return;
+  const auto require = [&](const char* what, const auto& own, const auto& other) {
+    if (own == other) return;
     throw core::UserError(run.folder.string(),
-                          fmt::format("has another {} than {}", what, first.folder.string()),
-                          "put entries of one suite, track, class and seed into one table");
+                          fmt::format("has another {} than {}: {}, and there {}", what,
+                                      first.folder.string(), own, other),
+                          "put entries of one suite, seed, number of layouts, track and class into "
+                          "one table");
   };
-  require(run.suite_digest == first.suite_digest, "suite");
-  require(run.seed == first.seed, "seed");
-  require(run.layouts == first.layouts, "number of layouts");
-  require(run.manifest.track == first.manifest.track, "track");
-  require(run.manifest.computing == first.manifest.computing, "class of computing");
-}
-
-std::string_view NameOf(Verdict verdict) {
-  return core::EnumNames<Verdict>::kNames.at(static_cast<std::size_t>(verdict));
+  const auto suite = [](const BenchRun& of) {
+    return fmt::format("{} ({:.8})", of.suite, of.suite_digest);
+  };
+  const auto name = []<typename Choice>(Choice choice) {
+    return core::EnumNames<Choice>::kNames.at(static_cast<std::size_t>(choice));
+  };
+  if (run.suite_digest != first.suite_digest) require("suite", suite(run), suite(first));
+  require("seed", run.seed, first.seed);
+  require("number of layouts", run.layouts, first.layouts);
+  require("track", name(run.manifest.track), name(first.manifest.track));
+  require("class of computing", name(run.manifest.computing), name(first.manifest.computing));
 }
 
 }  // namespace
@@ -251,6 +230,7 @@ std::string_view NameOf(Verdict verdict) {
 Standings MakeStandings(const std::vector<std::filesystem::path>& folders) {
   Standings standings;
   std::vector<ScoredCells> cells;
+  OptimisticWays optimist;
   for (const std::filesystem::path& folder : folders) {
     BenchRun run = ReadBenchRun(folder);
     if (standings.entries.empty()) {
@@ -265,7 +245,13 @@ Standings MakeStandings(const std::vector<std::filesystem::path>& folders) {
       throw core::UserError(folder.string(), "has the name of another entry: " + run.name(),
                             "give entries names of their own");
     }
-    cells.push_back(ReadCells(run));
+    const batch::ResultStore store = batch::ResultStore::Read(folder);
+    cells.push_back(ReadScoredCells(run, store));
+    if (cells.size() == 1) {
+      optimist = MakeOptimisticWays(store);
+      standings.why_no_regret = optimist.why_none;
+    }
+    SetRegrets(cells.back(), optimist);
     standings.entries.push_back(StandingOf(std::move(run), cells.back(), cells.front()));
   }
   std::vector<std::vector<double>> scores;
@@ -276,92 +262,6 @@ Standings MakeStandings(const std::vector<std::filesystem::path>& folders) {
     return a.score.value > b.score.value;
   });
   return standings;
-}
-
-report::ResultTable Standings::Table() const {
-  report::ResultTable table(
-      "entry,score,score_low,score_high,difference,difference_low,difference_high,verdict,told,"
-      "best_rank,worst_rank,declared,unsafe,passes_gate,scraped,way_ratio,time_ratio,energy_ratio,"
-      "entry_digest,head");
-  for (const Standing& of : entries) {
-    table.Add(of.run.name(), of.score.value, of.score.interval, of.difference.value,
-              of.difference.interval, NameOf(of.verdict), of.told, of.best_rank, of.worst_rank,
-              of.declared, of.unsafe, of.passes_gate, of.scraped, of.way_ratio, of.time_ratio,
-              of.energy_ratio, of.run.entry_digest, of.run.head);
-  }
-  return table;
-}
-
-namespace {
-
-report::ResultTable PartsTable(const std::vector<Standing>& entries, const char* part,
-                               std::vector<ScoredPart> Standing::*parts) {
-  report::ResultTable table(
-      fmt::format("entry,{},arrived,baseline,difference,difference_low,difference_high", part));
-  for (const Standing& of : entries) {
-    for (const ScoredPart& in : of.*parts) {
-      table.Add(of.run.name(), in.name, in.arrived, in.baseline, in.difference.value,
-                in.difference.interval);
-    }
-  }
-  return table;
-}
-
-}  // namespace
-
-report::ResultTable Standings::Groups() const {
-  return PartsTable(entries, "group", &Standing::groups);
-}
-
-report::ResultTable Standings::Cells() const {
-  return PartsTable(entries, "cell", &Standing::cells);
-}
-
-report::ResultTable Standings::Ends() const {
-  report::ResultTable table("entry,end,share");
-  for (const Standing& of : entries) {
-    for (std::size_t i = 0; i < of.ends.size(); ++i) {
-      table.Add(of.run.name(), truth::kTrialOutcomeNames.at(i), of.ends.at(i));
-    }
-    for (std::size_t i = 0; i < kPatience_m.size(); ++i) {
-      table.Add(of.run.name(), fmt::format("goal_reached_within_{:g}_m", kPatience_m.at(i)),
-                of.arrived_within.at(i));
-    }
-  }
-  return table;
-}
-
-std::string Standings::Markdown() const {
-  const auto percent = [](double share) { return fmt::format("{:.1f}", 100.0 * share); };
-  const auto ends = [](const Estimated& of) {
-    return fmt::format("{:.1f} ({:.1f} .. {:.1f})", 100.0 * of.value, 100.0 * of.interval.low,
-                       100.0 * of.interval.high);
-  };
-  std::string text = fmt::format(
-      "| entry | arrived [%] | to {} [points] | | ranks | declared [%] | unsafe [%] | scraped [%] "
-      "| way | time | energy | tells [points] "
-      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
-      baseline);
-  for (const Standing& of : entries) {
-    const bool base = of.run.name() == baseline;
-    text += fmt::format(
-        "| {}{} | {} | {} | {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {} |\n",
-        of.run.name(), of.passes_gate ? "" : " (not safe enough)", ends(of.score),
-        base ? "" : ends(of.difference), base ? "baseline" : NameOf(of.verdict),
-        of.best_rank == of.worst_rank ? fmt::format("{}", of.best_rank)
-                                      : fmt::format("{} to {}", of.best_rank, of.worst_rank),
-        percent(of.declared), percent(of.unsafe), percent(of.scraped), of.way_ratio, of.time_ratio,
-        of.energy_ratio, base ? "" : percent(of.told));
-  }
-  text += "\n| arrived [%] |";
-  for (const ScoredPart& group : entries.front().groups) text += fmt::format(" {} |", group.name);
-  text += "\n|---|";
-  for (std::size_t i = 0; i < entries.front().groups.size(); ++i) text += "---|";
-  for (const Standing& of : entries) {
-    text += fmt::format("\n| {} |", of.run.name());
-    for (const ScoredPart& group : of.groups) text += fmt::format(" {} |", percent(group.arrived));
-  }
-  return text + "\n";
 }
 
 }  // namespace rockyard::campaign

@@ -8,10 +8,12 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "campaign/bench/bench.h"
+#include "campaign/bench/scored_cells.h"
 #include "core/json_value.h"
 #include "report/result_table.h"
 #include "statistics/proportions.h"
@@ -30,6 +32,14 @@ struct Estimated {
   statistics::Interval interval{};
 };
 
+// The mean regret of drives that truly arrive: the way driven and what is left to the goal, over
+// the way of an optimist with perfect eyes (bench_regret.h), less 1. NaN where no drive has one.
+// Drives weigh as their cells; the interval is over layouts, of the ratio of sums that the mean is.
+struct Regret {
+  Estimated mean;
+  std::int64_t drives = 0;
+};
+
 // What is known of an entry beside the baseline.
 enum class Verdict { kBetter, kWorse, kTied, kUnknown };
 
@@ -43,6 +53,7 @@ struct ScoredPart {
   double arrived = 0.0;   // weighted share of drives that end truly at the goal
   double baseline = 0.0;  // of the baseline there
   Estimated difference;
+  Regret regret;
 };
 
 struct Standing {
@@ -54,12 +65,14 @@ struct Standing {
   // Ranks that are possible, 1 the best: all pairs of entries at once, 95 % (Bonferroni).
   int best_rank = 1;
   int worst_rank = 1;
+  std::set<std::string> not_told_from;  // names of others, by the same comparison
   // Weighted shares of drives. Unsafe: tipped over, or ended with the body on a rock.
   double unsafe = 0.0;
   Estimated unsafe_difference;  // to the baseline
   bool passes_gate = true;  // false: surely more unsafe drives than the baseline's, by kTieMargin
   double scraped = 0.0;     // body contact with a rock
   double declared = 0.0;    // believed to be at the goal, truly or not
+  Regret regret;
   // Of drives in which both arrived truly: sums over those of the baseline.
   double way_ratio = 1.0;
   double time_ratio = 1.0;
@@ -68,6 +81,7 @@ struct Standing {
   std::array<double, truth::kTrialOutcomeNames.size()> ends{};  // the same, by outcome
   std::vector<ScoredPart> groups;
   std::vector<ScoredPart> cells;
+  ScoredCells drives;
 };
 
 struct Standings {
@@ -75,6 +89,7 @@ struct Standings {
   std::int64_t layouts = 0;
   std::vector<Standing> entries;  // the best score first
   std::string baseline;           // its name
+  std::string why_no_regret;      // a sentence where no entry has one
 
   report::ResultTable Table() const;   // a row for each entry
   report::ResultTable Groups() const;  // a row for each entry and group

@@ -102,16 +102,12 @@ std::vector<std::string> SettingsOf(const core::JsonValue& document, const Entry
   return settings;
 }
 
-BenchEntry ReadEntry(const fs::path& path) {
+namespace {
+
+// Reads what a manifest of this text says.
+void ReadManifest(const std::string& text, BenchEntry& entry) {
+  const fs::path folder = entry.file.parent_path();
   std::error_code error;
-  const fs::path manifest_file =
-      fs::absolute(fs::is_directory(path, error) ? path / "entry.json" : path).lexically_normal();
-  const fs::path folder = manifest_file.parent_path();
-  const std::string file = manifest_file.string();
-  BenchEntry entry;
-  constexpr std::size_t kMaxManifest = 1 << 20;
-  const std::string text = core::ReadTextFile(file, kMaxManifest, "the manifest of an entry");
-  entry.document = core::ParseJson(text, file);
   core::ReadParams(entry.document, entry.manifest, {"set"});
   const EntryParams& manifest = entry.manifest;
   std::vector<core::Problem> problems;
@@ -140,6 +136,26 @@ BenchEntry ReadEntry(const fs::path& path) {
   }
   if (!problems.empty()) throw core::UserError(std::move(problems));
   entry.digest = core::Sha256(core::Sha256(text) + (own_code ? DigestOf(folder) : std::string()));
+}
+
+}  // namespace
+
+BenchEntry ReadEntry(const fs::path& path) {
+  std::error_code error;
+  BenchEntry entry;
+  entry.file =
+      fs::absolute(fs::is_directory(path, error) ? path / "entry.json" : path).lexically_normal();
+  const std::string file = entry.file.string();
+  constexpr std::size_t kMaxManifest = 1 << 20;
+  const std::string text = core::ReadTextFile(file, kMaxManifest, "the manifest of an entry");
+  entry.document = core::ParseJson(text, file);
+  try {
+    ReadManifest(text, entry);
+  } catch (const core::UserError& wrong) {
+    std::vector<core::Problem> problems = wrong.problems();
+    for (core::Problem& problem : problems) problem.path = file + ": " + problem.path;
+    throw core::UserError(std::move(problems));
+  }
   return entry;
 }
 

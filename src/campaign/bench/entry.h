@@ -37,6 +37,7 @@ struct EntryParams {
 };
 
 struct BenchEntry {
+  std::filesystem::path file;  // the manifest's
   EntryParams manifest;
   core::JsonValue document;           // the manifest whole
   std::vector<std::string> settings;  // "PATH=VALUE" of every cell
@@ -50,8 +51,8 @@ struct BenchEntry {
 std::vector<std::string> SettingsOf(const core::JsonValue& document, const EntryParams& manifest);
 
 // Reads an entry: a manifest, or the entry.json of a folder. Throws core::UserError with what is
-// wrong: a setting of anything but the navigator, both a plugin and a process, files outside of the
-// folder.
+// wrong, named with the file: a setting of anything but the navigator, both a plugin and a process,
+// files outside of the folder.
 BenchEntry ReadEntry(const std::filesystem::path& path);
 
 }  // namespace rockyard::campaign

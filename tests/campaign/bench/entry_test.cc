@@ -23,7 +23,7 @@ class EntryTest : public BenchRuns {
       Entry(manifest);
       ADD_FAILURE() << "not refused: " << manifest;
     } catch (const core::UserError& error) {
-      EXPECT_EQ(error.problems().front().path, path);
+      EXPECT_EQ(error.problems().front().path, Path("mine/entry.json").string() + ": " + path);
       EXPECT_THAT(error.problems().front().reason, HasSubstr(reason));
     }
   }
