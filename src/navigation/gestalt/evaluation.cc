@@ -63,14 +63,13 @@ const messages::SplineVote* Evaluation::SafeSpline() const {
   return best != nullptr && best->merged >= params_.votes.min_vote_goodness ? best : nullptr;
 }
 
-double Evaluation::RemedyTurn(const PlanOrigin& origin, const messages::Goal& goal,
-                              double turned_rad) const {
+RemedyTurn Evaluation::TurnInstead(const PlanOrigin& origin, const messages::Goal& goal,
+                                   double turned_rad) const {
   EXPECT(grid_ != nullptr);
-  const double turn_rad = remedy_turns_.First(*grid_, origin, goal, way_);
-  if (turn_rad != 0.0 || !spline_voter_) return turn_rad;
-  const messages::SplineVote* best = SafeSpline();
-  return remedy_turns_.InsteadOf(best != nullptr ? &best->spline : nullptr, turned_rad, *grid_,
-                                 origin, goal, way_);
+  const double goes_on_m = spline_voter_
+                               ? way_voter_.ShortestWay_m(origin, goal, way_, spline_votes_)
+                               : way_voter_.ShortestWay_m(origin, goal, way_, votes_);
+  return remedy_turns_.InsteadOf(goes_on_m, turned_rad, *grid_, origin, goal, way_);
 }
 
 const messages::Spline* Evaluation::TakeSafeSpline() {

@@ -118,9 +118,9 @@ void WayToGo::Plan(const GoodnessGrid& grid, const messages::Goal& goal) {
   goal_ = goal;
   if (!params_.enabled) return;
   Remember(grid);
-  field_.cost_per_m = remembered_;
-  for (double& cost : field_.cost_per_m) {
-    if (cost == 0.0) cost = params_.unseen_cost;
+  field_.cost_per_m.resize(worst_.size());
+  for (std::size_t i = 0; i < worst_.size(); ++i) {
+    field_.cost_per_m[i] = latest_[i] == 0.0 ? params_.unseen_cost : Remembered(i);
   }
   field_.Search(goal, params_.unseen_cost);
 }
@@ -141,16 +141,8 @@ void WayToGo::Remember(const GoodnessGrid& grid) {
   };
   const std::int64_t first_x = first(grid.x0_m, phase_x_m_, grid.nx);
   const std::int64_t first_y = first(grid.y0_m, phase_y_m_, grid.ny);
-  std::vector<double> moved(CellIndex(0, cells_, cells_), 0.0);
-  for (int iy = 0; iy < cells_ && !remembered_.empty(); ++iy) {
-    for (int ix = 0; ix < cells_; ++ix) {
-      const std::int64_t column = first_x + ix - first_x_;
-      const std::int64_t row = first_y + iy - first_y_;
-      if (column < 0 || column >= cells_ || row < 0 || row >= cells_) continue;
-      moved[CellIndex(ix, iy, cells_)] =
-          remembered_[CellIndex(static_cast<int>(column), static_cast<int>(row), cells_)];
-    }
-  }
+  worst_ = Moved(worst_, first_x, first_y);
+  latest_ = Moved(latest_, first_x, first_y);
   for (int iy = 0; iy < grid.ny; ++iy) {
     for (int ix = 0; ix < grid.nx; ++ix) {
       const CellValue& cell = grid.Cell(ix, iy);
@@ -158,16 +150,42 @@ void WayToGo::Remember(const GoodnessGrid& grid) {
       const int row = iy + (cells_ - grid.ny) / 2;
       const bool inside = column >= 0 && column < cells_ && row >= 0 && row < cells_;
       if (!cell.known || !inside) continue;
-      double& cost = moved[CellIndex(column, row, cells_)];
-      const double seen = cost_of_goodness_[cell.goodness];
-      cost = params_.seen_again == SeenAgain::kWorst ? std::max(cost, seen) : seen;
+      const std::size_t at = CellIndex(column, row, cells_);
+      latest_[at] = cost_of_goodness_[cell.goodness];
+      worst_[at] = std::max(worst_[at], latest_[at]);
     }
   }
-  remembered_ = std::move(moved);
   first_x_ = first_x;
   first_y_ = first_y;
   field_.x0_m = phase_x_m_ + static_cast<double>(first_x) * field_.cell_m;
   field_.y0_m = phase_y_m_ + static_cast<double>(first_y) * field_.cell_m;
+}
+
+std::vector<double> WayToGo::Moved(const std::vector<double>& costs, std::int64_t first_x,
+                                   std::int64_t first_y) const {
+  std::vector<double> moved(CellIndex(0, cells_, cells_), 0.0);
+  for (int iy = 0; iy < cells_ && !costs.empty(); ++iy) {
+    for (int ix = 0; ix < cells_; ++ix) {
+      const std::int64_t column = first_x + ix - first_x_;
+      const std::int64_t row = first_y + iy - first_y_;
+      if (column < 0 || column >= cells_ || row < 0 || row >= cells_) continue;
+      moved[CellIndex(ix, iy, cells_)] =
+          costs[CellIndex(static_cast<int>(column), static_cast<int>(row), cells_)];
+    }
+  }
+  return moved;
+}
+
+double WayToGo::Remembered(std::size_t cell) const {
+  switch (params_.seen_again) {
+    case SeenAgain::kWorst:
+      return worst_[cell];
+    case SeenAgain::kLatest:
+      return latest_[cell];
+    case SeenAgain::kMean:
+      return std::sqrt(worst_[cell] * latest_[cell]);
+  }
+  return worst_[cell];
 }
 
 }  // namespace rockyard::navigation

@@ -55,13 +55,20 @@ class WayToGo {
 
   // Remembers the grid, and searches the way to the goal.
   void Plan(const GoodnessGrid& grid, const messages::Goal& goal);
-  void Forget() { remembered_.clear(); }
+  void Forget() {
+    worst_.clear();
+    latest_.clear();
+  }
 
   // Returns the way from a place to the goal of the last plan, m: in metres of good ground.
   double From_m(double x_m, double y_m) const;
 
  private:
   void Remember(const GoodnessGrid& grid);
+  // Returns what is remembered of the cell, moved to where the window lies now.
+  std::vector<double> Moved(const std::vector<double>& costs, std::int64_t first_x,
+                            std::int64_t first_y) const;
+  double Remembered(std::size_t cell) const;
 
   CostToGoParams params_;
   std::vector<double> cost_of_goodness_;  // a metre, by goodness
@@ -70,7 +77,9 @@ class WayToGo {
   double phase_y_m_ = 0.0;
   std::int64_t first_x_ = 0;  // lattice numbers of the window's first cell
   std::int64_t first_y_ = 0;
-  std::vector<double> remembered_;  // cost of a metre, [iy][ix]; 0: never seen
+  // Costs of a metre, [iy][ix]; 0: never seen.
+  std::vector<double> worst_;
+  std::vector<double> latest_;
   CostField field_;
   messages::Goal goal_;
 };

@@ -24,7 +24,18 @@ class WayVoter {
   void Vote(const PlanOrigin& origin, const messages::Goal& goal, const WayToGo& way,
             SplineVotes& votes) const;
 
+  // Return the shortest way by a forward arc, or a spline, whose hazard vote would be driven;
+  // endless where there is none.
+  double ShortestWay_m(const PlanOrigin& origin, const messages::Goal& goal, const WayToGo& way,
+                       const MotionVotes& votes) const;
+  double ShortestWay_m(const PlanOrigin& origin, const messages::Goal& goal, const WayToGo& way,
+                       const SplineVotes& votes) const;
+
  private:
+  double Way_m(const PlanOrigin& origin, const messages::Goal& goal, const WayToGo& way,
+               const messages::MotionVote& vote) const;
+  double Way_m(const PlanOrigin& origin, const messages::Goal& goal, const WayToGo& way,
+               const messages::SplineVote& vote) const;
   template <typename AnyVote>
   void Replace(double way_m, double best_m, AnyVote& vote) const;
 

@@ -136,15 +136,17 @@ TEST(CostFieldTest, AGoalBeyondTheWindowLiesStraightOn) {
   EXPECT_NEAR(CostFrom(field, 0.0, 0.0), least, 0.01 * least);
 }
 
-// What is remembered moves with the lattice, and a wall stays one that a later look takes for
-// ground, unless the latest look counts.
+// What is remembered moves with the lattice. A wall that a later look takes for ground stays one by
+// the worst, is open by the latest, and costs sqrt(50) a metre by the mean of both.
 TEST(WayToGoTest, RemembersWhatItHasSeen) {
   const auto wall = [](double x, double y) { return x > 1.0 && x < 1.4 && std::abs(y) < 4.0; };
   const GoodnessGrid seen =
       GridOf([&](double x, double y) { return wall(x, y) ? kObstacle : kGood; });
   GoodnessGrid ahead = UniformGrid(kUnknownCell);
   ahead.x0_m += 2.0;
-  for (const SeenAgain again : {SeenAgain::kWorst, SeenAgain::kLatest}) {
+  for (const auto& [again, forgotten_m] : {std::pair{SeenAgain::kWorst, 0.0},
+                                           {SeenAgain::kLatest, 3.0},
+                                           {SeenAgain::kMean, 2.6 + 0.4 * std::sqrt(50.0)}}) {
     GestaltParams params;
     params.remedies.cost_to_go.enabled = true;
     params.remedies.cost_to_go.seen_again = again;
@@ -155,8 +157,7 @@ TEST(WayToGoTest, RemembersWhatItHasSeen) {
     way.Plan(ahead, {3.0, 0.0});
     EXPECT_NEAR(way.From_m(0.0, 0.0), round_m, 0.2);
     way.Plan(UniformGrid(kGood), {3.0, 0.0});
-    const bool forgets = again == SeenAgain::kLatest;
-    EXPECT_NEAR(way.From_m(0.0, 0.0), forgets ? 3.0 : round_m, 0.2);
+    EXPECT_NEAR(way.From_m(0.0, 0.0), forgotten_m > 0.0 ? forgotten_m : round_m, 0.2);
     way.Forget();
     way.Plan(UniformGrid(kGood), {3.0, 0.0});
     EXPECT_NEAR(way.From_m(0.0, 0.0), 3.0, 0.1);
