@@ -219,8 +219,7 @@ NavigatorDecision GestaltCycle::OnFelt(const NavigatorInput& input) {
   if (!progress_.GoesOnAfterFelt()) return Finish(NavigatorStatus::kGaveUp);
   const MotionCommand motion = manoeuvre_.Command();
   if (turns()) {
-    // Something blocks the turn: the search goes on the other way round.
-    search_.KeepTo(-motion.direction);
+    search_.Feel(motion.direction);
     return BeginCycle(input);
   }
   plans_.Drop();
@@ -253,6 +252,10 @@ PlanOrigin GestaltCycle::MadeGood(PlanOrigin origin) const {
 RemedyTurn GestaltCycle::TurnInstead(const PlanOrigin& origin) {
   progress_.CountTurn(origin.pose.heading_rad);
   RemedyTurn turn = evaluation_.TurnInstead(origin, goal_O_, progress_.turned_rad());
+  if (turn.angle_rad != 0.0) {
+    turn.angle_rad = search_.Round_rad(turn.angle_rad);
+    if (turn.angle_rad == 0.0) return {};
+  }
   // A rover that has looked all round drives by what it saw.
   turn.drives = turn.drives || (turn.any() && search_.HasTurnedAround());
   return turn;

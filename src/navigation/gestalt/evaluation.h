@@ -43,8 +43,7 @@ class Evaluation {
 
   // Returns the turn in place that a remedy makes instead of what the votes would choose.
   // `turned_rad` is what the rover has turned without progress.
-  RemedyTurn TurnInstead(const PlanOrigin& origin, const messages::Goal& goal,
-                         double turned_rad) const;
+  RemedyTurn TurnInstead(const PlanOrigin& origin, const messages::Goal& goal, double turned_rad);
 
   // Makes view() of the last votes, for traces and pages. It copies them: a choice has to be marked
   // before.

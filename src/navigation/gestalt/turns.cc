@@ -28,26 +28,25 @@ RemedyTurns::RemedyTurns(const GestaltParams& params)
   for (const double s_m : sampling_.distance_m) straight_.push_back({s_m, 0.0});
 }
 
-RemedyTurn RemedyTurns::InsteadOf(double goes_on_m, double turned_rad, const GoodnessGrid& grid,
-                                  const PlanOrigin& origin, const Goal& goal,
-                                  const WayToGo& way) const {
+RemedyTurn RemedyTurns::InsteadOf(std::optional<double> goes_on_m, double turned_rad,
+                                  const GoodnessGrid& grid, const PlanOrigin& origin,
+                                  const Goal& goal, const WayToGo& way) const {
   const TurnFirstParams& first = params_.remedies.turn_first;
   const StopToTurnParams& stops = params_.remedies.stop_to_turn;
-  const bool splines = params_.continuous.cycle == DriveCycle::kCsad;
-  const bool stops_to_turn = splines && stops.enabled;
+  const bool stops_to_turn = stops.enabled && params_.continuous.cycle == DriveCycle::kCsad;
   if (!first.enabled && !stops_to_turn) return {};
   const bool orbits = stops_to_turn && turned_rad > stops.orbit_turn_rad;
   const Turn turn =
       BestTurn(orbits ? Directions::kAllRound : Sensible(), grid, origin.pose, goal, way);
   if (!std::isfinite(turn.way_m)) return {};
-  const bool unseen = std::abs(turn.angle_rad) > first.bearing_rad;
-  const bool saves = goes_on_m - turn.way_m > stops.saves_m;
-  const bool nothing_safe = std::isinf(goes_on_m) && (stops_to_turn || SearchesWay());
-  const bool instead = (first.enabled && unseen && saves) || (stops_to_turn && saves) || orbits ||
-                       nothing_safe ||
-                       (stops_to_turn && LiesInsideTightestCircle(origin.pose, goal));
+  const bool far_aside = std::abs(turn.angle_rad) > first.bearing_rad;
+  const bool saves = !goes_on_m || *goes_on_m - turn.way_m > stops.saves_m;
+  const bool instead = stops_to_turn
+                           ? saves || orbits || LiesInsideTightestCircle(origin.pose, goal)
+                           : saves && (far_aside || (!goes_on_m && SearchesWay()));
   if (!instead) return {};
-  return {turn.angle_rad, !unseen && nothing_safe};
+  // What lies far aside is looked at first.
+  return {turn.angle_rad, !goes_on_m && !far_aside};
 }
 
 RemedyTurns::Directions RemedyTurns::Sensible() const {

@@ -2,6 +2,7 @@
 // asks for one whenever it has voted; records depend on them where a remedy is on.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "messages/estimates.h"
@@ -27,10 +28,10 @@ class RemedyTurns {
  public:
   explicit RemedyTurns(const GestaltParams& params);
 
-  // Returns the turn that replaces what would be driven on; none: it is driven. `goes_on_m` is the
-  // shortest way by what is safe to drive on (WayVoter), endless if nothing is; `turned_rad` what
-  // the rover has turned on the move since its last progress.
-  RemedyTurn InsteadOf(double goes_on_m, double turned_rad, const GoodnessGrid& grid,
+  // Returns the turn that replaces what would be driven on. `goes_on_m` is the way to the goal by
+  // that, if anything is safe to drive; `turned_rad` what the rover has turned on the move since
+  // its last progress.
+  RemedyTurn InsteadOf(std::optional<double> goes_on_m, double turned_rad, const GoodnessGrid& grid,
                        const PlanOrigin& origin, const messages::Goal& goal,
                        const WayToGo& way) const;
 

@@ -45,16 +45,21 @@ struct CostField {
 
   // Returns the cost to go from a place in the window, bilinear between the corners.
   double At(double column, double row) const;
+
+  // Returns whether the way from a place in the window, after the last Search, leads from cells
+  // that cost less than `cost` over others to such cells again.
+  bool Crosses(double column, double row, double cost) const;
 };
 
 // Remembers what was seen around the rover, and searches the way. Invariant: cells are those of the
-// map's lattice; a cell keeps what is remembered of it (SeenAgain) until it leaves the window.
+// map's lattice; a cell keeps the worst and the latest cost that was seen of it until it leaves the
+// window.
 class WayToGo {
  public:
   explicit WayToGo(const GestaltParams& params);
 
-  // Remembers the grid, and searches the way to the goal.
-  void Plan(const GoodnessGrid& grid, const messages::Goal& goal);
+  // Remembers the grid, and searches the way of a rover at x, y to the goal.
+  void Plan(const GoodnessGrid& grid, const messages::Goal& goal, double x_m, double y_m);
   void Forget() {
     worst_.clear();
     latest_.clear();
@@ -68,7 +73,7 @@ class WayToGo {
   // Returns what is remembered of the cell, moved to where the window lies now.
   std::vector<double> Moved(const std::vector<double>& costs, std::int64_t first_x,
                             std::int64_t first_y) const;
-  double Remembered(std::size_t cell) const;
+  void Search(const std::vector<double>& costs);
 
   CostToGoParams params_;
   std::vector<double> cost_of_goodness_;  // a metre, by goodness

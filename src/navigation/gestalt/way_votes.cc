@@ -41,10 +41,9 @@ double WayVoter::Way_m(const PlanOrigin& origin, const messages::Goal& goal, con
 }
 
 double WayVoter::Way_m(const PlanOrigin& origin, const messages::Goal& goal, const WayToGo& way,
-                       const SplineVote& vote) const {
-  const double length_m =
-      std::min(params_.splines.waypoint_m, TowardsGoal(origin.pose, goal).distance_m);
-  const math::Pose2 end = AlongSpline(Planar(origin.pose), vote.spline, 0.0, length_m, law_);
+                       const messages::Spline& spline, double until_m) const {
+  const double length_m = std::min(until_m, TowardsGoal(origin.pose, goal).distance_m);
+  const math::Pose2 end = AlongSpline(Planar(origin.pose), spline, 0.0, length_m, law_);
   return length_m + way.From_m(end.x_m, end.y_m);
 }
 
@@ -70,31 +69,11 @@ void WayVoter::Vote(const PlanOrigin& origin, const messages::Goal& goal, const 
   std::vector<double> ways_m;
   double best_m = kEndless;
   for (const SplineVote& vote : votes) {
-    ways_m.push_back(Way_m(origin, goal, way, vote));
+    ways_m.push_back(Way_m(origin, goal, way, vote.spline, params_.splines.waypoint_m));
     const bool may_be_driven = vote.feasible && vote.hazard > params_.drive.min_drive_goodness;
     if (may_be_driven) best_m = std::min(best_m, ways_m.back());
   }
   for (std::size_t i = 0; i < votes.size(); ++i) Replace(ways_m[i], best_m, votes[i]);
-}
-
-double WayVoter::ShortestWay_m(const PlanOrigin& origin, const messages::Goal& goal,
-                               const WayToGo& way, const MotionVotes& votes) const {
-  double shortest_m = kEndless;
-  for (const MotionVote& vote : votes.forward) {
-    if (vote.vetoed || vote.hazard < params_.votes.min_vote_goodness) continue;
-    shortest_m = std::min(shortest_m, Way_m(origin, goal, way, vote));
-  }
-  return shortest_m;
-}
-
-double WayVoter::ShortestWay_m(const PlanOrigin& origin, const messages::Goal& goal,
-                               const WayToGo& way, const SplineVotes& votes) const {
-  double shortest_m = kEndless;
-  for (const SplineVote& vote : votes) {
-    if (!vote.feasible || vote.hazard < params_.votes.min_vote_goodness) continue;
-    shortest_m = std::min(shortest_m, Way_m(origin, goal, way, vote));
-  }
-  return shortest_m;
 }
 
 template <typename AnyVote>

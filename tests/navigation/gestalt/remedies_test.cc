@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <optional>
 
 #include "drive.h"
 #include "grids.h"
@@ -93,14 +93,15 @@ TEST(GestaltRemedies, AgainstDriftKeepsToTheLine) {
 }
 
 // The turn in place instead of what leads on by a way of that length.
-RemedyTurn TurnInstead(const GoodnessGrid& grid, const messages::Goal& goal, double goes_on_m,
-                       double turned_deg = 0.0, bool searches_way = false) {
+RemedyTurn TurnInstead(const GoodnessGrid& grid, const messages::Goal& goal,
+                       std::optional<double> goes_on_m, double turned_deg = 0.0,
+                       bool searches_way = false) {
   GestaltParams params;
   params.continuous.cycle = DriveCycle::kCsad;
   params.remedies.stop_to_turn.enabled = true;
   params.remedies.cost_to_go.enabled = searches_way;
   WayToGo way(params);
-  way.Plan(grid, goal);
+  way.Plan(grid, goal, 0.0, 0.0);
   return RemedyTurns(params).InsteadOf(goes_on_m, math::DegToRad(turned_deg), grid, {}, goal, way);
 }
 
@@ -128,14 +129,42 @@ TEST(RemedyTurnsTest, DoNotTurnBackForWantOfRoom) {
     const bool free = (x < 1.0 && std::abs(y) < 0.5) || (x > 0.4 && x < 1.0 && y > 0.0);
     return free ? kGood : kObstacle;
   });
-  const double endless = std::numeric_limits<double>::infinity();
-  const RemedyTurn on = TurnInstead(bend, {0.7, 6.0}, endless, 0.0, true);
+  const RemedyTurn on = TurnInstead(bend, {0.7, 6.0}, std::nullopt, 0.0, true);
   EXPECT_LT(std::abs(on.angle_rad), math::DegToRad(75.0));
   EXPECT_TRUE(on.drives);
   // What lies behind has not been seen: a look follows.
-  const RemedyTurn back = TurnInstead(bend, {-6.0, 0.0}, endless, 0.0, true);
+  const RemedyTurn back = TurnInstead(bend, {-6.0, 0.0}, std::nullopt, 0.0, true);
   EXPECT_NEAR(std::abs(back.angle_rad), std::numbers::pi, math::DegToRad(10.0));
   EXPECT_FALSE(back.drives);
+}
+
+// A turn in place is none on the move: an orbit would end with every one of them.
+TEST(GestaltRemedies, TurnsInPlaceAreNoOrbit) {
+  GestaltSetup setup = SetupOf(DriveCycle::kCsad);
+  setup.goal = {-4.0, 3.0};
+  setup.params.remedies.stop_to_turn.enabled = true;
+  setup.params.remedies.stop_to_turn.orbit_turn_rad = math::DegToRad(90.0);
+  GestaltDrive drive(setup);
+  ASSERT_EQ(drive.Run(40000), NavigatorStatus::kArrived);
+  int turns = 0;
+  for (std::size_t i = 1; i < drive.log().size(); ++i) {
+    turns += drive.log()[i].turns() && !drive.log()[i - 1].turns();
+  }
+  EXPECT_EQ(turns, 1);
+}
+
+// Where one side of a turn was felt to be blocked the other way round is left, until it drives.
+TEST(SearchTest, TurnsTheOtherWayRoundFromWhatItFelt) {
+  Search search(GestaltParams{});
+  EXPECT_EQ(search.Round_rad(1.0), 1.0);
+  search.Feel(+1);
+  EXPECT_DOUBLE_EQ(search.Round_rad(1.0), 1.0 - 2.0 * std::numbers::pi);
+  EXPECT_EQ(search.Round_rad(-1.0), -1.0);
+  search.Feel(-1);
+  EXPECT_EQ(search.Round_rad(1.0), 0.0);
+  EXPECT_EQ(search.Round_rad(-1.0), 0.0);
+  search.ForgetGround();
+  EXPECT_EQ(search.Round_rad(1.0), 1.0);
 }
 
 // Turning counts from the last gain, and from the last rest.
