@@ -63,8 +63,8 @@ NavigatorDecision GestaltCycle::Replan(const NavigatorInput& input) {
       MadeGood(predicts ? manoeuvre_.Ahead(seen, plans_.WaySince(*input.look, input.time_s))
                         : PlanOrigin{input.estimate, manoeuvre_.steered_per_m()});
   evaluation_.Vote(origin, goal_O_, felt_);
-  const double turn_rad = RemedyTurn(origin);
-  const NavigatorDecision next = turn_rad != 0.0 ? StopToTurn() : ReplaceMotion(input, origin);
+  const bool turns = TurnInstead(origin).any();
+  const NavigatorDecision next = turns ? StopToTurn() : ReplaceMotion(input, origin);
   evaluation_.Show(origin, attitude, goal_O_);
   return next;
 }

@@ -56,6 +56,7 @@ NavigatorDecision GestaltCycle::Decide(const NavigatorInput& input) {
       return ContinueBackOff(input);
     case Stage::kTurning:
     case Stage::kTurningToDrive:
+    case Stage::kTurningToStep:
       return ContinueTurn(input);
   }
   return BeginCycle(input);
@@ -109,11 +110,11 @@ NavigatorDecision GestaltCycle::OnCloud(const NavigatorInput& input) {
   const PlanOrigin origin = MadeGood({input.estimate, manoeuvre_.steered_per_m()});
   evaluation_.See(*input.cloud, BelievedPose(input), input.estimate);
   evaluation_.Vote(origin, goal_O_, felt_);
-  const double turn_rad = RemedyTurn(origin);
+  const RemedyTurn turn = TurnInstead(origin);
   progress_.Rest();
-  if (turn_rad != 0.0) {
+  if (turn.any()) {
     evaluation_.Show(origin, input.attitude, goal_O_);
-    return BeginRemedyTurn(turn_rad, input);
+    return BeginTurnInstead(turn, input);
   }
   if (const messages::Spline* safe = evaluation_.TakeSafeSpline()) {
     evaluation_.Show(origin, input.attitude, goal_O_);
@@ -143,9 +144,19 @@ NavigatorDecision GestaltCycle::Choose(const NavigatorInput& input) {
                input);
 }
 
-NavigatorDecision GestaltCycle::BeginRemedyTurn(double turn_rad, const NavigatorInput& input) {
-  return Begin(Stage::kTurning, {MotionKind::kTurnInPlace, 0.0, turn_rad < 0.0 ? -1 : +1},
-               std::abs(turn_rad), input);
+NavigatorDecision GestaltCycle::BeginTurnInstead(const RemedyTurn& turn,
+                                                 const NavigatorInput& input) {
+  if (turn.angle_rad == 0.0) return BeginStep(input);
+  return Begin(turn.drives ? Stage::kTurningToStep : Stage::kTurning,
+               {MotionKind::kTurnInPlace, 0.0, turn.angle_rad < 0.0 ? -1 : +1},
+               std::abs(turn.angle_rad), input);
+}
+
+NavigatorDecision GestaltCycle::BeginStep(const NavigatorInput& input) {
+  plans_.Stop();
+  search_.ForgetGround();
+  return Begin(Stage::kDriving, {MotionKind::kArc, 0.0, +1},
+               std::min(params_.drive.step_m, DistanceToGoal_m(input.estimate)), input);
 }
 
 NavigatorDecision GestaltCycle::BeginDrive(MotionCommand arc, const NavigatorInput& input) {
@@ -192,8 +203,9 @@ NavigatorDecision GestaltCycle::ContinueTurn(const NavigatorInput& input) {
   if (stops) return OnFelt(input);
   felt_.ForgetVetoes();
   // A turn that ran out of time leads elsewhere.
-  const bool drives = stage_ == Stage::kTurningToDrive && manoeuvre_.Completed();
-  return drives ? BeginDrive({MotionKind::kArc, 0.0, +1}, input) : BeginCycle(input);
+  if (stage_ == Stage::kTurning || !manoeuvre_.Completed()) return BeginCycle(input);
+  if (stage_ == Stage::kTurningToStep) return BeginStep(input);
+  return BeginDrive({MotionKind::kArc, 0.0, +1}, input);
 }
 
 NavigatorDecision GestaltCycle::ContinueBackOff(const NavigatorInput& input) {
@@ -207,8 +219,7 @@ NavigatorDecision GestaltCycle::OnFelt(const NavigatorInput& input) {
   if (!progress_.GoesOnAfterFelt()) return Finish(NavigatorStatus::kGaveUp);
   const MotionCommand motion = manoeuvre_.Command();
   if (turns()) {
-    // Something blocks the turn: the search goes on the other way round.
-    search_.KeepTo(-motion.direction);
+    search_.Feel(motion.direction);
     return BeginCycle(input);
   }
   plans_.Drop();
@@ -238,10 +249,16 @@ PlanOrigin GestaltCycle::MadeGood(PlanOrigin origin) const {
   return origin;
 }
 
-double GestaltCycle::RemedyTurn(const PlanOrigin& origin) {
+RemedyTurn GestaltCycle::TurnInstead(const PlanOrigin& origin) {
   progress_.CountTurn(origin.pose.heading_rad);
-  if (search_.HasTurnedAround()) return 0.0;
-  return evaluation_.RemedyTurn(origin, goal_O_, progress_.turned_rad());
+  RemedyTurn turn = evaluation_.TurnInstead(origin, goal_O_, progress_.turned_rad());
+  if (turn.angle_rad != 0.0) {
+    turn.angle_rad = search_.Round_rad(turn.angle_rad);
+    if (turn.angle_rad == 0.0) return {};
+  }
+  // A rover that has looked all round drives by what it saw.
+  turn.drives = turn.drives || (turn.any() && search_.HasTurnedAround());
+  return turn;
 }
 
 bool GestaltCycle::AtGoal(const PoseEstimate& estimate) const {

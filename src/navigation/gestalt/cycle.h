@@ -71,13 +71,15 @@ class GestaltCycle {
     kBackingOff,
     kTurning,         // for want of a way: a look follows
     kTurningToDrive,  // a straight drive follows
+    kTurningToStep,   // a straight drive of step_m follows, which nothing replaces on the move
   };
 
   NavigatorDecision BeginCycle(const NavigatorInput& input);
   NavigatorDecision Look(Stage stage);
   NavigatorDecision OnCloud(const NavigatorInput& input);
   NavigatorDecision Choose(const NavigatorInput& input);
-  NavigatorDecision BeginRemedyTurn(double turn_rad, const NavigatorInput& input);
+  NavigatorDecision BeginTurnInstead(const RemedyTurn& turn, const NavigatorInput& input);
+  NavigatorDecision BeginStep(const NavigatorInput& input);
   NavigatorDecision BeginDrive(messages::MotionCommand arc, const NavigatorInput& input);
   NavigatorDecision BeginSpline(const messages::Spline& spline, const NavigatorInput& input);
   NavigatorDecision Begin(Stage stage, const messages::MotionCommand& motion, double leg,
@@ -95,7 +97,10 @@ class GestaltCycle {
   NavigatorDecision StopToTurn();
   NavigatorDecision OnNoSafePlan();
 
-  bool turns() const { return stage_ == Stage::kTurning || stage_ == Stage::kTurningToDrive; }
+  bool turns() const {
+    return stage_ == Stage::kTurning || stage_ == Stage::kTurningToDrive ||
+           stage_ == Stage::kTurningToStep;
+  }
   bool moves() const {
     return turns() || stage_ == Stage::kDriving || stage_ == Stage::kBackingOff;
   }
@@ -103,8 +108,8 @@ class GestaltCycle {
   bool Progresses(const messages::PoseEstimate& estimate);
   // Returns the origin with the way that the rover makes good there in place of its heading.
   PlanOrigin MadeGood(PlanOrigin origin) const;
-  // Returns the turn in place of a remedy that is made before anything is driven; 0: none.
-  double RemedyTurn(const PlanOrigin& origin);
+  // Returns the turn in place of a remedy that is made before anything is driven.
+  RemedyTurn TurnInstead(const PlanOrigin& origin);
   bool AtGoal(const messages::PoseEstimate& estimate) const;
   messages::MotionVote& NextTurn(const messages::PoseEstimate& estimate);
   // Returns kTurningToDrive for a turn after whose end the rover may drive straight on, else

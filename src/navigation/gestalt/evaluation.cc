@@ -52,7 +52,7 @@ void Evaluation::Vote(const PlanOrigin& origin, const messages::Goal& goal,
   if (spline_voter_) {
     spline_votes_ = spline_voter_->Vote(*grid_, origin.pose, origin.curvature_per_m, goal);
   }
-  way_.Plan(*grid_, goal);
+  way_.Plan(*grid_, goal, origin.pose.x_m, origin.pose.y_m);
   if (!params_.remedies.cost_to_go.enabled) return;
   way_voter_.Vote(origin, goal, way_, votes_);
   way_voter_.Vote(origin, goal, way_, spline_votes_);
@@ -63,14 +63,21 @@ const messages::SplineVote* Evaluation::SafeSpline() const {
   return best != nullptr && best->merged >= params_.votes.min_vote_goodness ? best : nullptr;
 }
 
-double Evaluation::RemedyTurn(const PlanOrigin& origin, const messages::Goal& goal,
-                              double turned_rad) const {
+RemedyTurn Evaluation::TurnInstead(const PlanOrigin& origin, const messages::Goal& goal,
+                                   double turned_rad) {
   EXPECT(grid_ != nullptr);
-  const double turn_rad = remedy_turns_.First(*grid_, origin, goal, way_);
-  if (turn_rad != 0.0 || !spline_voter_) return turn_rad;
-  const messages::SplineVote* best = SafeSpline();
-  return remedy_turns_.InsteadOf(best != nullptr ? &best->spline : nullptr, turned_rad, *grid_,
-                                 origin, goal, way_);
+  std::optional<double> goes_on_m;
+  if (spline_voter_) {
+    if (const messages::SplineVote* best = SafeSpline()) {
+      // As far as arcs: a spline is replaced long before its end.
+      goes_on_m =
+          way_voter_.Way_m(origin, goal, way_, best->spline, params_.remedies.cost_to_go.way_m);
+    }
+  } else if (const messages::MotionVote* best = ChooseArc(votes_, params_)) {
+    const bool safe = best->motion.direction > 0 && best->merged >= params_.votes.min_vote_goodness;
+    if (safe) goes_on_m = way_voter_.Way_m(origin, goal, way_, *best);
+  }
+  return remedy_turns_.InsteadOf(goes_on_m, turned_rad, *grid_, origin, goal, way_);
 }
 
 const messages::Spline* Evaluation::TakeSafeSpline() {

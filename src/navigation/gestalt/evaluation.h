@@ -41,9 +41,9 @@ class Evaluation {
   // Chooses the best spline and marks it as chosen; null where none is safe.
   const messages::Spline* TakeSafeSpline();
 
-  // Returns the turn in place, rad, positive left, that a remedy makes instead of what the votes
-  // would choose; 0: none. `turned_rad` is what the rover has turned without progress.
-  double RemedyTurn(const PlanOrigin& origin, const messages::Goal& goal, double turned_rad) const;
+  // Returns the turn in place that a remedy makes instead of what the votes would choose.
+  // `turned_rad` is what the rover has turned without progress.
+  RemedyTurn TurnInstead(const PlanOrigin& origin, const messages::Goal& goal, double turned_rad);
 
   // Makes view() of the last votes, for traces and pages. It copies them: a choice has to be marked
   // before.

@@ -1,6 +1,7 @@
 #include "navigation/gestalt/patience.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "math/angles.h"
 #include "navigation/gestalt/votes.h"
@@ -55,8 +56,25 @@ bool Search::HasTurnedAround() const { return turned_rad_ >= search_turn_rad_ - 
 
 void Search::Count(double turned_rad) { turned_rad_ += std::abs(turned_rad); }
 
-void Search::Restart() {
+void Search::Feel(int side) {
+  (side > 0 ? felt_left_ : felt_right_) = true;
+  KeepTo(-side);
+}
+
+double Search::Round_rad(double turn_rad) const {
+  const bool left = turn_rad > 0.0;
+  if (!(left ? felt_left_ : felt_right_)) return turn_rad;
+  if (left ? felt_right_ : felt_left_) return 0.0;
+  return turn_rad - std::copysign(2.0 * std::numbers::pi, turn_rad);
+}
+
+void Search::ForgetGround() {
   turned_rad_ = 0.0;
+  felt_left_ = felt_right_ = false;
+}
+
+void Search::Restart() {
+  ForgetGround();
   side_ = 0;
 }
 

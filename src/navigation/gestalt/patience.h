@@ -69,10 +69,17 @@ class Search {
 
   // A search goes on to that side: +1 left, -1 right. 0: nothing is searched for.
   void KeepTo(int side) { side_ = side; }
+
+  // Is told that a hazard was felt in a turn to that side: a search goes on the other way round.
+  void Feel(int side);
+  // Returns a turn to the same heading the way round on which none was felt since the last drive; 0
+  // where one was on both.
+  double Round_rad(double turn_rad) const;
+
   void Count(double turned_rad);
 
   // The rover drives, or what it has seen is forgotten: all ground may be searched again.
-  void ForgetGround() { turned_rad_ = 0.0; }
+  void ForgetGround();
 
   // Is told that there is a next goal: the search is over, and all ground may be searched.
   void Restart();
@@ -82,6 +89,8 @@ class Search {
   double step_rad_;
   double turned_rad_ = 0.0;  // since the last drive
   int side_ = 0;
+  bool felt_left_ = false;
+  bool felt_right_ = false;
 };
 
 }  // namespace rockyard::navigation

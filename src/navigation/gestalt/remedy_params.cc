@@ -33,7 +33,8 @@ void CostToGoParams::Visit(core::FieldVisitor& v) {
   v.Choice("seen_again", seen_again,
            Assumed("what is remembered of a cell that was seen more than once",
                    "the map holds the mean of a cell's points, so that a wall seen from nearby can "
-                   "open and shut again; a way is not to lead there and back with it"));
+                   "open and shut again, and a way is not to lead there and back with it; but a "
+                   "rover that drifts takes the walls of a narrow way out for farther in"));
   v.Real("way_m", way_m,
          Assumed("length of an arc, or of a straight drive after a turn, after which the way that "
                  "is left is asked for, or the distance to the goal if that is less; splines have "
@@ -51,9 +52,9 @@ void StopToTurnParams::Visit(core::FieldVisitor& v) {
             Setting("a rover that drives splines (csad) stops and turns in place where that saves "
                     "way, where it has turned without progress, and where no spline is safe"));
   v.Real("saves_m", saves_m,
-         Assumed("way that a turn in place and a straight drive save against the best spline from "
-                 "which on they are made; a goal inside the tightest circle counts whatever it "
-                 "saves",
+         Assumed("way that a turn in place and a straight drive save against what would be driven "
+                 "from which on they are made, those of turn_first, too; a goal inside the "
+                 "tightest circle counts whatever it saves",
                  "a turn in place takes a rover of 7 cm/s as long as some half metre", {0.0, 20.0},
                  {0.25, 2.0}));
   v.Angle("orbit_turn_deg", orbit_turn_rad,
@@ -65,7 +66,7 @@ void StopToTurnParams::Visit(core::FieldVisitor& v) {
 void TurnFirstParams::Visit(core::FieldVisitor& v) {
   v.Boolean("enabled", enabled,
             Setting("turn in place towards the goal, or the way to it, before driving, where it "
-                    "lies farther aside than bearing_deg"));
+                    "lies farther aside than bearing_deg and that saves stop_to_turn.saves_m"));
   v.Angle("bearing_deg", bearing_rad,
           Assumed("bearing of the way beyond which the rover turns in place first",
                   "arcs of 0.5 m radius waste little way up to abeam, and cameras of 60 deg to "

@@ -33,6 +33,8 @@ enum class SeenAgain {
   kWorst,   // its highest cost: looks from nearby lower what was a step, as they add points of the
             // ground
   kLatest,  // what the map knew last
+  kWorstWhileOpen,  // the worst; where that leaves no way to the goal, its geometric mean with the
+                    // latest
 };
 
 // The cost of the way from a motion's end to the goal votes for it, in place of its direction.
@@ -42,7 +44,7 @@ struct CostToGoParams {
   double rough_cost = 3.0;
   double blocked_cost = 50.0;
   double memory_m = 20.0;
-  SeenAgain seen_again = SeenAgain::kWorst;
+  SeenAgain seen_again = SeenAgain::kWorstWhileOpen;
   double way_m = 1.5;
   double loss_m = 3.0;
 
@@ -72,5 +74,5 @@ struct GestaltRemedyParams {
 
 template <>
 struct rockyard::core::EnumNames<rockyard::navigation::SeenAgain> {
-  static constexpr std::array<std::string_view, 2> kNames{"worst", "latest"};
+  static constexpr std::array<std::string_view, 3> kNames{"worst", "latest", "worst_while_open"};
 };

@@ -23,49 +23,57 @@ constexpr int kDirections = 72;
 
 RemedyTurns::RemedyTurns(const GestaltParams& params)
     : params_(params),
-      law_(params.splines.law, params.speed),
       sampling_(
           SamplePaths(params.plan, std::min(params.map.grid.xstep_m, params.map.grid.ystep_m))) {
   for (const double s_m : sampling_.distance_m) straight_.push_back({s_m, 0.0});
 }
 
-double RemedyTurns::First(const GoodnessGrid& grid, const PlanOrigin& origin, const Goal& goal,
-                          const WayToGo& way) const {
+RemedyTurn RemedyTurns::InsteadOf(std::optional<double> goes_on_m, double turned_rad,
+                                  const GoodnessGrid& grid, const PlanOrigin& origin,
+                                  const Goal& goal, const WayToGo& way) const {
   const TurnFirstParams& first = params_.remedies.turn_first;
-  if (!first.enabled) return 0.0;
-  const double angle_rad = BestTurn(Sensible(), grid, origin.pose, goal, way).angle_rad;
-  return std::abs(angle_rad) > first.bearing_rad ? angle_rad : 0.0;
-}
-
-double RemedyTurns::InsteadOf(const messages::Spline* best, double turned_rad,
-                              const GoodnessGrid& grid, const PlanOrigin& origin, const Goal& goal,
-                              const WayToGo& way) const {
   const StopToTurnParams& stops = params_.remedies.stop_to_turn;
-  if (!stops.enabled) return 0.0;
-  const bool orbits = turned_rad > stops.orbit_turn_rad;
+  const bool stops_to_turn = stops.enabled && params_.continuous.cycle == DriveCycle::kCsad;
+  if (!first.enabled && !stops_to_turn) return {};
+  const bool orbits = stops_to_turn && turned_rad > stops.orbit_turn_rad;
   const Turn turn =
       BestTurn(orbits ? Directions::kAllRound : Sensible(), grid, origin.pose, goal, way);
-  if (orbits || best == nullptr || LiesInsideTightestCircle(origin.pose, goal)) {
-    return turn.angle_rad;
-  }
-  const double length_m =
-      std::min(params_.splines.waypoint_m, TowardsGoal(origin.pose, goal).distance_m);
-  const math::Pose2 end = AlongSpline(Planar(origin.pose), *best, 0.0, length_m, law_);
-  const double saves_m = length_m + way.From_m(end.x_m, end.y_m) - turn.way_m;
-  return saves_m > stops.saves_m ? turn.angle_rad : 0.0;
+  if (!std::isfinite(turn.way_m)) return {};
+  const bool far_aside = std::abs(turn.angle_rad) > first.bearing_rad;
+  const bool saves = !goes_on_m || *goes_on_m - turn.way_m > stops.saves_m;
+  const bool instead = stops_to_turn
+                           ? saves || orbits || LiesInsideTightestCircle(origin.pose, goal)
+                           : saves && (far_aside || (!goes_on_m && SearchesWay()));
+  if (!instead) return {};
+  // What lies far aside is looked at first.
+  return {turn.angle_rad, !goes_on_m && !far_aside};
 }
 
 RemedyTurns::Directions RemedyTurns::Sensible() const {
-  return params_.remedies.cost_to_go.enabled ? Directions::kAllRound : Directions::kTowardsGoal;
+  return SearchesWay() ? Directions::kAllRound : Directions::kTowardsGoal;
 }
 
 RemedyTurns::Turn RemedyTurns::BestTurn(Directions directions, const GoodnessGrid& grid,
                                         const PoseEstimate& pose, const Goal& goal,
                                         const WayToGo& way) const {
-  const GoalDirection direct = TowardsGoal(pose, goal);
+  const double goal_m = TowardsGoal(pose, goal).distance_m;
+  const double judged_m = params_.plan.plan_max_dist_m;
   // A searched way bends at any place; a straight one is to be open as far as paths are judged.
-  const double share = directions == Directions::kAllRound ? 0.5 : 1.0;
-  const double length_m = std::min(share * params_.plan.plan_max_dist_m, direct.distance_m);
+  if (directions == Directions::kTowardsGoal) {
+    return BestTurnBefore(std::min(judged_m, goal_m), directions, grid, pose, goal, way);
+  }
+  const double length_m = std::min(0.5 * judged_m, goal_m);
+  const Turn turn = BestTurnBefore(length_m, directions, grid, pose, goal, way);
+  // The way on gains what is driven of it. In a room too narrow for any straight drive of that
+  // length along it, the best of the others leads back.
+  if (turn.way_m <= way.From_m(pose.x_m, pose.y_m) + 0.5 * length_m) return turn;
+  const Turn shorter = BestTurnBefore(0.5 * length_m, directions, grid, pose, goal, way);
+  return shorter.way_m < turn.way_m ? shorter : turn;
+}
+
+RemedyTurns::Turn RemedyTurns::BestTurnBefore(double length_m, Directions directions,
+                                              const GoodnessGrid& grid, const PoseEstimate& pose,
+                                              const Goal& goal, const WayToGo& way) const {
   Turn best{.way_m = std::numeric_limits<double>::infinity()};
   const auto consider = [&](double angle_rad) {
     PoseEstimate turned = pose;
@@ -78,7 +86,7 @@ RemedyTurns::Turn RemedyTurns::BestTurn(Directions directions, const GoodnessGri
         params_.votes.min_allowed_goodness, params_.plan.unknown_cells);
     if (hazard.goodness > params_.drive.min_drive_goodness) best = {angle_rad, way_m};
   };
-  consider(direct.bearing_rad);
+  consider(TowardsGoal(pose, goal).bearing_rad);
   if (directions == Directions::kTowardsGoal) return best;
   for (int i = 0; i < kDirections; ++i) {
     // From straight ahead to either side, so that the smaller of equal turns is taken.

@@ -2,12 +2,12 @@
 // asks for one whenever it has voted; records depend on them where a remedy is on.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "messages/estimates.h"
 #include "messages/navigation_view.h"
 #include "navigation/gestalt/arcs.h"
-#include "navigation/gestalt/curvature_law.h"
 #include "navigation/gestalt/gestalt_params.h"
 #include "navigation/gestalt/goodness_grid.h"
 #include "navigation/gestalt/manoeuvre.h"
@@ -15,20 +15,25 @@
 
 namespace rockyard::navigation {
 
-// Knows nothing of the drive cycle. Angles are positive to the left; 0 is no turn.
+// A turn in place before anything is driven, and what follows it.
+struct RemedyTurn {
+  double angle_rad = 0.0;  // positive left; 0: straight on
+  bool drives = false;     // drive.step_m straight on follows without another look
+
+  bool any() const { return drives || angle_rad != 0.0; }
+};
+
+// Knows nothing of the drive cycle.
 class RemedyTurns {
  public:
   explicit RemedyTurns(const GestaltParams& params);
 
-  // Returns the turn of turn_first: towards the way, where that leads farther aside than
-  // bearing_rad.
-  double First(const GoodnessGrid& grid, const PlanOrigin& origin, const messages::Goal& goal,
-               const WayToGo& way) const;
-
-  // Returns the turn of stop_to_turn, which replaces the spline `best`; null: none is safe.
-  // `turned_rad` is what the rover has turned on the move since its last progress.
-  double InsteadOf(const messages::Spline* best, double turned_rad, const GoodnessGrid& grid,
-                   const PlanOrigin& origin, const messages::Goal& goal, const WayToGo& way) const;
+  // Returns the turn that replaces what would be driven on. `goes_on_m` is the way to the goal by
+  // that, if anything is safe to drive; `turned_rad` what the rover has turned on the move since
+  // its last progress.
+  RemedyTurn InsteadOf(std::optional<double> goes_on_m, double turned_rad, const GoodnessGrid& grid,
+                       const PlanOrigin& origin, const messages::Goal& goal,
+                       const WayToGo& way) const;
 
  private:
   // A turn in place, and the way to the goal by the straight drive after it.
@@ -41,16 +46,20 @@ class RemedyTurns {
   // the shortest way leads back to its middle, whichever way the rover has gone.
   enum class Directions { kTowardsGoal, kAllRound };
   Directions Sensible() const;
+  bool SearchesWay() const { return params_.remedies.cost_to_go.enabled; }
 
   // Returns the turn after which the way is shortest, of those after which nothing that is known
-  // blocks the straight drive; no turn, and an endless way, if there is none.
+  // blocks the straight drive; no turn, and an endless way, if there is none. Where no straight
+  // drive of half of what is judged leads on, one of half of that may.
   Turn BestTurn(Directions directions, const GoodnessGrid& grid, const messages::PoseEstimate& pose,
                 const messages::Goal& goal, const WayToGo& way) const;
+  Turn BestTurnBefore(double length_m, Directions directions, const GoodnessGrid& grid,
+                      const messages::PoseEstimate& pose, const messages::Goal& goal,
+                      const WayToGo& way) const;
   bool LiesInsideTightestCircle(const messages::PoseEstimate& pose,
                                 const messages::Goal& goal) const;
 
   GestaltParams params_;
-  CurvatureLaw law_;
   PathSampling sampling_;
   std::vector<PathPoint> straight_;  // the places of the sampling on a straight drive
 };

@@ -98,6 +98,49 @@ double CostField::At(double column, double row) const {
   return (1.0 - up) * low + up * high;
 }
 
+bool CostField::Crosses(double column, double row, double cost) const {
+  int ix = std::clamp(static_cast<int>(std::lround(column)), 0, nx);
+  int iy = std::clamp(static_cast<int>(std::lround(row)), 0, ny);
+  bool was_open = false;
+  bool crosses = false;
+  for (;;) {
+    // On to the next corner on the way, along a side of two cells or across one.
+    const double here = to_go[CellIndex(ix, iy, nx + 1)];
+    double least = kFar;
+    double per_m = 0.0;
+    int next_x = ix;
+    int next_y = iy;
+    for (const int dx : {-1, 0, +1}) {
+      for (const int dy : {-1, 0, +1}) {
+        const int x = ix + dx;
+        const int y = iy + dy;
+        if (x < 0 || x > nx || y < 0 || y > ny) continue;
+        const double beyond = to_go[CellIndex(x, y, nx + 1)];
+        if (beyond >= here) continue;
+        double cell_per_m = kFar;
+        for (int cy = std::max(0, std::max(iy, y) - 1); cy <= std::min({iy, y, ny - 1}); ++cy) {
+          for (int cx = std::max(0, std::max(ix, x) - 1); cx <= std::min({ix, x, nx - 1}); ++cx) {
+            cell_per_m = std::min(cell_per_m, cost_per_m[CellIndex(cx, cy, nx)]);
+          }
+        }
+        const double way = beyond + cell_m * math::Hypot(dx, dy) * cell_per_m;
+        if (way >= least) continue;
+        least = way;
+        per_m = cell_per_m;
+        next_x = x;
+        next_y = y;
+      }
+    }
+    if (next_x == ix && next_y == iy) return false;
+    ix = next_x;
+    iy = next_y;
+    const bool open = per_m < cost;
+    if (open && crosses) return true;
+    was_open = was_open || open;
+    crosses = crosses || (was_open && !open);
+  }
+}
+
 WayToGo::WayToGo(const GestaltParams& params)
     : params_(params.remedies.cost_to_go),
       cells_(static_cast<int>(std::ceil(params_.memory_m / params.map.grid.xstep_m))) {
@@ -114,15 +157,30 @@ WayToGo::WayToGo(const GestaltParams& params)
   field_.nx = field_.ny = cells_;
 }
 
-void WayToGo::Plan(const GoodnessGrid& grid, const messages::Goal& goal) {
+void WayToGo::Plan(const GoodnessGrid& grid, const messages::Goal& goal, double x_m, double y_m) {
   goal_ = goal;
   if (!params_.enabled) return;
   Remember(grid);
-  field_.cost_per_m = remembered_;
+  Search(params_.seen_again == SeenAgain::kLatest ? latest_ : worst_);
+  if (params_.seen_again != SeenAgain::kWorstWhileOpen) return;
+  const double column = (x_m - field_.x0_m) / field_.cell_m;
+  const double row = (y_m - field_.y0_m) / field_.cell_m;
+  if (!field_.Crosses(column, row, params_.blocked_cost)) return;
+  // The rover came in where it finds no way out: where looks contradict each other, either is in
+  // doubt.
+  std::vector<double> doubted;
+  for (std::size_t i = 0; i < worst_.size(); ++i) {
+    doubted.push_back(std::sqrt(worst_[i] * latest_[i]));
+  }
+  Search(doubted);
+}
+
+void WayToGo::Search(const std::vector<double>& costs) {
+  field_.cost_per_m = costs;
   for (double& cost : field_.cost_per_m) {
     if (cost == 0.0) cost = params_.unseen_cost;
   }
-  field_.Search(goal, params_.unseen_cost);
+  field_.Search(goal_, params_.unseen_cost);
 }
 
 double WayToGo::From_m(double x_m, double y_m) const {
@@ -141,16 +199,8 @@ void WayToGo::Remember(const GoodnessGrid& grid) {
   };
   const std::int64_t first_x = first(grid.x0_m, phase_x_m_, grid.nx);
   const std::int64_t first_y = first(grid.y0_m, phase_y_m_, grid.ny);
-  std::vector<double> moved(CellIndex(0, cells_, cells_), 0.0);
-  for (int iy = 0; iy < cells_ && !remembered_.empty(); ++iy) {
-    for (int ix = 0; ix < cells_; ++ix) {
-      const std::int64_t column = first_x + ix - first_x_;
-      const std::int64_t row = first_y + iy - first_y_;
-      if (column < 0 || column >= cells_ || row < 0 || row >= cells_) continue;
-      moved[CellIndex(ix, iy, cells_)] =
-          remembered_[CellIndex(static_cast<int>(column), static_cast<int>(row), cells_)];
-    }
-  }
+  worst_ = Moved(worst_, first_x, first_y);
+  latest_ = Moved(latest_, first_x, first_y);
   for (int iy = 0; iy < grid.ny; ++iy) {
     for (int ix = 0; ix < grid.nx; ++ix) {
       const CellValue& cell = grid.Cell(ix, iy);
@@ -158,16 +208,30 @@ void WayToGo::Remember(const GoodnessGrid& grid) {
       const int row = iy + (cells_ - grid.ny) / 2;
       const bool inside = column >= 0 && column < cells_ && row >= 0 && row < cells_;
       if (!cell.known || !inside) continue;
-      double& cost = moved[CellIndex(column, row, cells_)];
-      const double seen = cost_of_goodness_[cell.goodness];
-      cost = params_.seen_again == SeenAgain::kWorst ? std::max(cost, seen) : seen;
+      const std::size_t at = CellIndex(column, row, cells_);
+      latest_[at] = cost_of_goodness_[cell.goodness];
+      worst_[at] = std::max(worst_[at], latest_[at]);
     }
   }
-  remembered_ = std::move(moved);
   first_x_ = first_x;
   first_y_ = first_y;
   field_.x0_m = phase_x_m_ + static_cast<double>(first_x) * field_.cell_m;
   field_.y0_m = phase_y_m_ + static_cast<double>(first_y) * field_.cell_m;
+}
+
+std::vector<double> WayToGo::Moved(const std::vector<double>& costs, std::int64_t first_x,
+                                   std::int64_t first_y) const {
+  std::vector<double> moved(CellIndex(0, cells_, cells_), 0.0);
+  for (int iy = 0; iy < cells_ && !costs.empty(); ++iy) {
+    for (int ix = 0; ix < cells_; ++ix) {
+      const std::int64_t column = first_x + ix - first_x_;
+      const std::int64_t row = first_y + iy - first_y_;
+      if (column < 0 || column >= cells_ || row < 0 || row >= cells_) continue;
+      moved[CellIndex(ix, iy, cells_)] =
+          costs[CellIndex(static_cast<int>(column), static_cast<int>(row), cells_)];
+    }
+  }
+  return moved;
 }
 
 }  // namespace rockyard::navigation

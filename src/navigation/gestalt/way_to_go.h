@@ -45,23 +45,35 @@ struct CostField {
 
   // Returns the cost to go from a place in the window, bilinear between the corners.
   double At(double column, double row) const;
+
+  // Returns whether the way from a place in the window, after the last Search, leads from cells
+  // that cost less than `cost` over others to such cells again.
+  bool Crosses(double column, double row, double cost) const;
 };
 
 // Remembers what was seen around the rover, and searches the way. Invariant: cells are those of the
-// map's lattice; a cell keeps what is remembered of it (SeenAgain) until it leaves the window.
+// map's lattice; a cell keeps the worst and the latest cost that was seen of it until it leaves the
+// window.
 class WayToGo {
  public:
   explicit WayToGo(const GestaltParams& params);
 
-  // Remembers the grid, and searches the way to the goal.
-  void Plan(const GoodnessGrid& grid, const messages::Goal& goal);
-  void Forget() { remembered_.clear(); }
+  // Remembers the grid, and searches the way of a rover at x, y to the goal.
+  void Plan(const GoodnessGrid& grid, const messages::Goal& goal, double x_m, double y_m);
+  void Forget() {
+    worst_.clear();
+    latest_.clear();
+  }
 
   // Returns the way from a place to the goal of the last plan, m: in metres of good ground.
   double From_m(double x_m, double y_m) const;
 
  private:
   void Remember(const GoodnessGrid& grid);
+  // Returns what is remembered of the cell, moved to where the window lies now.
+  std::vector<double> Moved(const std::vector<double>& costs, std::int64_t first_x,
+                            std::int64_t first_y) const;
+  void Search(const std::vector<double>& costs);
 
   CostToGoParams params_;
   std::vector<double> cost_of_goodness_;  // a metre, by goodness
@@ -70,7 +82,9 @@ class WayToGo {
   double phase_y_m_ = 0.0;
   std::int64_t first_x_ = 0;  // lattice numbers of the window's first cell
   std::int64_t first_y_ = 0;
-  std::vector<double> remembered_;  // cost of a metre, [iy][ix]; 0: never seen
+  // Costs of a metre, [iy][ix]; 0: never seen.
+  std::vector<double> worst_;
+  std::vector<double> latest_;
   CostField field_;
   messages::Goal goal_;
 };

@@ -13,6 +13,7 @@ using messages::MotionVote;
 using messages::SplineVote;
 
 constexpr double kBestVote = 255.0;
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 // Returns the place after a motion of that length; of a turn in place, after its straight drive.
 math::Pose2 EndOf(const MotionVote& vote, const messages::PoseEstimate& from, double length_m) {
@@ -31,16 +32,28 @@ math::Pose2 EndOf(const MotionVote& vote, const messages::PoseEstimate& from, do
 WayVoter::WayVoter(const GestaltParams& params)
     : params_(params), law_(params.splines.law, params.speed) {}
 
-void WayVoter::Vote(const PlanOrigin& origin, const messages::Goal& goal, const WayToGo& way,
-                    MotionVotes& votes) const {
+double WayVoter::Way_m(const PlanOrigin& origin, const messages::Goal& goal, const WayToGo& way,
+                       const MotionVote& vote) const {
   const double length_m =
       std::min(params_.remedies.cost_to_go.way_m, TowardsGoal(origin.pose, goal).distance_m);
+  const math::Pose2 end = EndOf(vote, origin.pose, length_m);
+  return length_m + way.From_m(end.x_m, end.y_m);
+}
+
+double WayVoter::Way_m(const PlanOrigin& origin, const messages::Goal& goal, const WayToGo& way,
+                       const messages::Spline& spline, double until_m) const {
+  const double length_m = std::min(until_m, TowardsGoal(origin.pose, goal).distance_m);
+  const math::Pose2 end = AlongSpline(Planar(origin.pose), spline, 0.0, length_m, law_);
+  return length_m + way.From_m(end.x_m, end.y_m);
+}
+
+void WayVoter::Vote(const PlanOrigin& origin, const messages::Goal& goal, const WayToGo& way,
+                    MotionVotes& votes) const {
   std::vector<double> ways_m;
-  double best_m = std::numeric_limits<double>::infinity();
+  double best_m = kEndless;
   for (const auto* row : {&votes.forward, &votes.backward, &votes.point_turns}) {
     for (const MotionVote& vote : *row) {
-      const math::Pose2 end = EndOf(vote, origin.pose, length_m);
-      ways_m.push_back(length_m + way.From_m(end.x_m, end.y_m));
+      ways_m.push_back(Way_m(origin, goal, way, vote));
       const bool may_be_driven = vote.hazard > params_.drive.min_drive_goodness && !vote.vetoed;
       if (may_be_driven) best_m = std::min(best_m, ways_m.back());
     }
@@ -53,13 +66,10 @@ void WayVoter::Vote(const PlanOrigin& origin, const messages::Goal& goal, const 
 
 void WayVoter::Vote(const PlanOrigin& origin, const messages::Goal& goal, const WayToGo& way,
                     SplineVotes& votes) const {
-  const double length_m =
-      std::min(params_.splines.waypoint_m, TowardsGoal(origin.pose, goal).distance_m);
   std::vector<double> ways_m;
-  double best_m = std::numeric_limits<double>::infinity();
+  double best_m = kEndless;
   for (const SplineVote& vote : votes) {
-    const math::Pose2 end = AlongSpline(Planar(origin.pose), vote.spline, 0.0, length_m, law_);
-    ways_m.push_back(length_m + way.From_m(end.x_m, end.y_m));
+    ways_m.push_back(Way_m(origin, goal, way, vote.spline, params_.splines.waypoint_m));
     const bool may_be_driven = vote.feasible && vote.hazard > params_.drive.min_drive_goodness;
     if (may_be_driven) best_m = std::min(best_m, ways_m.back());
   }

@@ -24,6 +24,13 @@ class WayVoter {
   void Vote(const PlanOrigin& origin, const messages::Goal& goal, const WayToGo& way,
             SplineVotes& votes) const;
 
+  // Return the way to the goal by a motion, m: by an arc or the straight drive after a turn of
+  // way_m, by a spline until until_m of it.
+  double Way_m(const PlanOrigin& origin, const messages::Goal& goal, const WayToGo& way,
+               const messages::MotionVote& vote) const;
+  double Way_m(const PlanOrigin& origin, const messages::Goal& goal, const WayToGo& way,
+               const messages::Spline& spline, double until_m) const;
+
  private:
   template <typename AnyVote>
   void Replace(double way_m, double best_m, AnyVote& vote) const;

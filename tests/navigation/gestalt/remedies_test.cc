@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "drive.h"
 #include "grids.h"
@@ -91,32 +92,79 @@ TEST(GestaltRemedies, AgainstDriftKeepsToTheLine) {
   EXPECT_LT(LargestSag_m(true), 0.6 * sag_m);
 }
 
-// The turn in place instead of a spline that goes straight on.
-double TurnInsteadOfStraight(const GoodnessGrid& grid, const messages::Goal& goal,
-                             double turned_deg = 0.0) {
+// The turn in place instead of what leads on by a way of that length.
+RemedyTurn TurnInstead(const GoodnessGrid& grid, const messages::Goal& goal,
+                       std::optional<double> goes_on_m, double turned_deg = 0.0,
+                       bool searches_way = false) {
   GestaltParams params;
+  params.continuous.cycle = DriveCycle::kCsad;
   params.remedies.stop_to_turn.enabled = true;
+  params.remedies.cost_to_go.enabled = searches_way;
   WayToGo way(params);
-  way.Plan(grid, goal);
-  const messages::Spline straight{.length_m = 3.0};
-  return RemedyTurns(params).InsteadOf(&straight, math::DegToRad(turned_deg), grid, {}, goal, way);
+  way.Plan(grid, goal, 0.0, 0.0);
+  return RemedyTurns(params).InsteadOf(goes_on_m, math::DegToRad(turned_deg), grid, {}, goal, way);
 }
 
 TEST(RemedyTurnsTest, ReplaceASplineThatWastesWayOrCircles) {
   const GoodnessGrid open = UniformGrid(kGood);
   const double abeam = 0.5 * std::numbers::pi;
-  // Straight on to a goal abeam wastes 3 + hypot(3, 3) - 3 m; to one nearly ahead hardly anything.
-  EXPECT_NEAR(TurnInsteadOfStraight(open, {0.0, 3.0}), abeam, 1e-9);
-  EXPECT_NEAR(TurnInsteadOfStraight(open, {0.0, -3.0}), -abeam, 1e-9);
-  EXPECT_EQ(TurnInsteadOfStraight(open, {4.0, 0.4}), 0.0);
-  EXPECT_NEAR(TurnInsteadOfStraight(open, {4.0, 0.4}, 361.0), std::atan2(0.4, 4.0), 1e-9);
+  // Turned to the goal it is 3 m.
+  EXPECT_NEAR(TurnInstead(open, {0.0, 3.0}, 3.6).angle_rad, abeam, 1e-9);
+  EXPECT_NEAR(TurnInstead(open, {0.0, -3.0}, 3.6).angle_rad, -abeam, 1e-9);
+  EXPECT_FALSE(TurnInstead(open, {0.0, 3.0}, 3.4).any());
+  EXPECT_NEAR(TurnInstead(open, {4.0, 0.4}, 4.1, 361.0).angle_rad, std::atan2(0.4, 4.0), 1e-9);
   // Within 0.75 m of (0, 1) no circle of 1 m touches the disc of the goal, though the way is short.
-  EXPECT_NEAR(TurnInsteadOfStraight(open, {0.25, 0.35}), std::atan2(0.35, 0.25), 1e-9);
-  EXPECT_EQ(TurnInsteadOfStraight(open, {0.3, 0.1}), 0.0);
+  EXPECT_NEAR(TurnInstead(open, {0.25, 0.35}, 0.5).angle_rad, std::atan2(0.35, 0.25), 1e-9);
+  EXPECT_FALSE(TurnInstead(open, {0.3, 0.1}, 0.5).any());
   // A rock stands between: the spline is driven, unless it only circles.
   const GoodnessGrid rock = GridWithDisc(0.0, 1.5, 0.5);
-  EXPECT_EQ(TurnInsteadOfStraight(rock, {0.0, 3.0}), 0.0);
-  EXPECT_GT(TurnInsteadOfStraight(rock, {0.0, 3.0}, 361.0), 0.5 * abeam);
+  EXPECT_FALSE(TurnInstead(rock, {0.0, 3.0}, 3.6).any());
+  EXPECT_GT(TurnInstead(rock, {0.0, 3.0}, 3.6, 361.0).angle_rad, 0.5 * abeam);
+}
+
+// A corridor that ends a metre ahead and goes on to the left, open behind: no straight drive of
+// 1.5 m leads on, but one of half of that.
+TEST(RemedyTurnsTest, DoNotTurnBackForWantOfRoom) {
+  const GoodnessGrid bend = GridOf([](double x, double y) {
+    const bool free = (x < 1.0 && std::abs(y) < 0.5) || (x > 0.4 && x < 1.0 && y > 0.0);
+    return free ? kGood : kObstacle;
+  });
+  const RemedyTurn on = TurnInstead(bend, {0.7, 6.0}, std::nullopt, 0.0, true);
+  EXPECT_LT(std::abs(on.angle_rad), math::DegToRad(75.0));
+  EXPECT_TRUE(on.drives);
+  // What lies behind has not been seen: a look follows.
+  const RemedyTurn back = TurnInstead(bend, {-6.0, 0.0}, std::nullopt, 0.0, true);
+  EXPECT_NEAR(std::abs(back.angle_rad), std::numbers::pi, math::DegToRad(10.0));
+  EXPECT_FALSE(back.drives);
+}
+
+// A turn in place is none on the move: an orbit would end with every one of them.
+TEST(GestaltRemedies, TurnsInPlaceAreNoOrbit) {
+  GestaltSetup setup = SetupOf(DriveCycle::kCsad);
+  setup.goal = {-4.0, 3.0};
+  setup.params.remedies.stop_to_turn.enabled = true;
+  setup.params.remedies.stop_to_turn.orbit_turn_rad = math::DegToRad(90.0);
+  GestaltDrive drive(setup);
+  ASSERT_EQ(drive.Run(40000), NavigatorStatus::kArrived);
+  int turns = 0;
+  for (std::size_t i = 1; i < drive.log().size(); ++i) {
+    turns += drive.log()[i].turns() && !drive.log()[i - 1].turns();
+  }
+  EXPECT_EQ(turns, 1);
+}
+
+// Where one side of a turn was felt to be blocked the other way round is left, until it drives.
+TEST(SearchTest, TurnsTheOtherWayRoundFromWhatItFelt) {
+  Search search(GestaltParams{});
+  EXPECT_EQ(search.Round_rad(1.0), 1.0);
+  search.Feel(+1);
+  EXPECT_DOUBLE_EQ(search.Round_rad(1.0), 1.0 - 2.0 * std::numbers::pi);
+  EXPECT_EQ(search.Round_rad(-1.0), -1.0);
+  search.Feel(-1);
+  EXPECT_EQ(search.Round_rad(1.0), 0.0);
+  EXPECT_EQ(search.Round_rad(-1.0), 0.0);
+  search.ForgetGround();
+  EXPECT_EQ(search.Round_rad(1.0), 1.0);
 }
 
 // Turning counts from the last gain, and from the last rest.

@@ -144,23 +144,60 @@ TEST(WayToGoTest, RemembersWhatItHasSeen) {
       GridOf([&](double x, double y) { return wall(x, y) ? kObstacle : kGood; });
   GoodnessGrid ahead = UniformGrid(kUnknownCell);
   ahead.x0_m += 2.0;
-  for (const SeenAgain again : {SeenAgain::kWorst, SeenAgain::kLatest}) {
+  for (const SeenAgain again :
+       {SeenAgain::kWorst, SeenAgain::kLatest, SeenAgain::kWorstWhileOpen}) {
     GestaltParams params;
     params.remedies.cost_to_go.enabled = true;
     params.remedies.cost_to_go.seen_again = again;
     WayToGo way(params);
-    way.Plan(seen, {3.0, 0.0});
+    way.Plan(seen, {3.0, 0.0}, 0.0, 0.0);
     const double round_m = way.From_m(0.0, 0.0);
     EXPECT_NEAR(round_m, std::hypot(1.0, 4.0) + 0.4 + std::hypot(1.6, 4.0), 0.5);
-    way.Plan(ahead, {3.0, 0.0});
+    way.Plan(ahead, {3.0, 0.0}, 0.0, 0.0);
     EXPECT_NEAR(way.From_m(0.0, 0.0), round_m, 0.2);
-    way.Plan(UniformGrid(kGood), {3.0, 0.0});
+    way.Plan(UniformGrid(kGood), {3.0, 0.0}, 0.0, 0.0);
     const bool forgets = again == SeenAgain::kLatest;
     EXPECT_NEAR(way.From_m(0.0, 0.0), forgets ? 3.0 : round_m, 0.2);
     way.Forget();
-    way.Plan(UniformGrid(kGood), {3.0, 0.0});
+    way.Plan(UniformGrid(kGood), {3.0, 0.0}, 0.0, 0.0);
     EXPECT_NEAR(way.From_m(0.0, 0.0), 3.0, 0.1);
   }
+}
+
+// Walls all round that a later look takes for ground: by the worst the way leads through, at 50 a
+// metre; where nothing else is open, at sqrt(50).
+TEST(WayToGoTest, DoubtsWhatLeavesNoWay) {
+  const GoodnessGrid pit = GridOf([](double x, double y) {
+    const double from_middle_m = std::max(std::abs(x), std::abs(y));
+    return from_middle_m > 1.0 && from_middle_m < 1.4 ? kObstacle : kGood;
+  });
+  for (const auto& [again, through] :
+       {std::pair{SeenAgain::kWorst, 50.0}, {SeenAgain::kWorstWhileOpen, std::sqrt(50.0)}}) {
+    GestaltParams params;
+    params.remedies.cost_to_go.enabled = true;
+    params.remedies.cost_to_go.seen_again = again;
+    WayToGo way(params);
+    way.Plan(pit, {3.0, 0.0}, 0.0, 0.0);
+    EXPECT_NEAR(way.From_m(0.0, 0.0), 2.6 + 0.4 * 50.0, 0.2);
+    way.Plan(UniformGrid(kGood), {3.0, 0.0}, 0.0, 0.0);
+    EXPECT_NEAR(way.From_m(0.0, 0.0), 2.6 + 0.4 * through, 0.2);
+  }
+}
+
+// Out of dear ground, or into it, is no way across it.
+TEST(CostFieldTest, KnowsWhetherTheWayCrossesDearGround) {
+  const auto crosses = [](double x_m, double y_m, const std::function<bool(double, double)>& dear) {
+    CostField field = FieldOf([&](double x, double y) { return dear(x, y) ? 50.0 : 1.0; });
+    field.Search({0.0, 0.0}, 1.0);
+    return field.Crosses((x_m - field.x0_m) / 0.2, (y_m - field.y0_m) / 0.2, 50.0);
+  };
+  const auto wall = [](double x, double) { return x > -1.0 && x < -0.6; };
+  EXPECT_TRUE(crosses(-3.0, 0.7, wall));
+  EXPECT_FALSE(crosses(3.0, 0.7, wall));
+  EXPECT_FALSE(crosses(-0.8, 0.7, wall));
+  EXPECT_FALSE(crosses(-3.0, 0.0, [](double x, double y) { return std::hypot(x, y) < 0.5; }));
+  EXPECT_FALSE(
+      crosses(-3.0, 0.0, [](double x, double y) { return x > -1.0 && x < -0.6 && y < 2.0; }));
 }
 
 // A metre costs 1 at goodness 255, rough_cost just above what may not be driven, linearly between,
@@ -172,7 +209,7 @@ TEST(WayToGoTest, CostsByGoodness) {
   params.remedies.cost_to_go.blocked_cost = 7.0;
   for (const auto& [goodness, cost] : {std::pair{255, 1.0}, {102, 2.2}, {11, 2.914}, {10, 7.0}}) {
     WayToGo way(params);
-    way.Plan(UniformGrid({static_cast<std::uint8_t>(goodness), 255, true}), {3.0, 0.0});
+    way.Plan(UniformGrid({static_cast<std::uint8_t>(goodness), 255, true}), {3.0, 0.0}, 0.0, 0.0);
     EXPECT_NEAR(way.From_m(0.0, 0.0), 3.0 * cost, 0.01 * cost) << goodness;
   }
 }
@@ -191,7 +228,7 @@ TEST(WayVoterTest, VotesFallWithTheWayThatIsLost) {
   const GoodnessGrid grid = UniformGrid(kGood);
   const messages::Goal goal{4.0, 0.0};
   WayToGo way(params);
-  way.Plan(grid, goal);
+  way.Plan(grid, goal, 0.0, 0.0);
   MotionVotes votes = ArcVoter(params).Vote(grid, {}, goal);
   WayVoter(params).Vote({}, goal, way, votes);
   EXPECT_NEAR(Straight(votes.forward).waypoint, 255.0, 1.0);
@@ -211,7 +248,7 @@ TEST(WayVoterTest, TheBestIsOneThatMayBeDriven) {
   const GoodnessGrid grid = GridWithDisc(1.2, 0.0, 0.5);
   const messages::Goal goal{4.0, 0.0};
   WayToGo way(params);
-  way.Plan(grid, goal);
+  way.Plan(grid, goal, 0.0, 0.0);
   MotionVotes votes = ArcVoter(params).Vote(grid, {}, goal);
   WayVoter(params).Vote({}, goal, way, votes);
   ASSERT_EQ(Straight(votes.forward).hazard, 0.0);
@@ -230,7 +267,7 @@ TEST(WayVoterTest, VotesOnSplines) {
   const messages::Goal goal{9.0, 0.0};
   const GoodnessGrid grid = UniformGrid(kGood);
   WayToGo way(params);
-  way.Plan(grid, goal);
+  way.Plan(grid, goal, 0.0, 0.0);
   SplineVotes votes(2);
   votes[0] = {.spline = {.length_m = 3.0}, .hazard = 255.0, .feasible = true};
   votes[1] = {.spline = {1.0, 1.0, 1.0, 3.0}, .hazard = 255.0, .feasible = true};
