@@ -64,7 +64,6 @@ struct Bug2Params {
 
 constexpr double kSweep_rad = std::numbers::pi / 12.0;
 constexpr int kHeadings = 24;
-constexpr double kAligned_rad = 0.1;  // what is left of a turn; the drive takes it
 
 class Bug2 final : public StopAndLook {
  public:
@@ -117,13 +116,6 @@ class Bug2 final : public StopAndLook {
       return move;
     }
     return {};  // walled in
-  }
-
-  /// Turns first, and looks, where the heading is another one.
-  static Move Towards(const Pose& here, double heading_rad, double way_m) {
-    const double bearing_rad = Wrapped(heading_rad - here.heading_rad);
-    if (std::abs(bearing_rad) > kAligned_rad) return {.turn_rad = bearing_rad};
-    return {.curvature_per_m = bearing_rad / way_m, .way_m = way_m};
   }
 
   /// Returns the sense of a turn away from the wall.

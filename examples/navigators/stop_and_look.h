@@ -149,6 +149,14 @@ class StopAndLook : public navigation::Navigator {
   /// Adds what a replay shows.
   virtual void Show(messages::Overlay& overlay) const = 0;
 
+  /// Returns a way straight ahead on a heading: a turn, and a look, before it where that is another
+  /// one than the rover's.
+  static Move Towards(const Pose& here, double heading_rad, double way_m) {
+    constexpr double kAligned_rad = 0.1;  // what is left of a turn; the drive takes it
+    const double bearing_rad = Wrapped(heading_rad - here.heading_rad);
+    if (std::abs(bearing_rad) > kAligned_rad) return {.turn_rad = bearing_rad};
+    return {.curvature_per_m = bearing_rad / way_m, .way_m = way_m};
+  }
   /// Returns a place of O in the frame in which goals are told, for overlays.
   messages::Goal Told(const Pose& place) const {
     const double dx_m = place.x_m - here_.x_m, dy_m = place.y_m - here_.y_m;

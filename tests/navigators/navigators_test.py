@@ -197,7 +197,7 @@ class Drives(plugin_drives.PluginTest):
         self.assertIn("more decisions than its time has", row["detail"])
 
     def test_examples_drive_and_count(self):
-        for name in ("arc_planner", "bug2", "potential_field"):
+        for name in ("a_star", "arc_planner", "bug2", "potential_field"):
             self.run_hash(name, ("--plugin", PLUGINS[name]))
             with open(self.folder / name / "trials.csv", newline="", encoding="utf-8") as file:
                 rows = list(csv.DictReader(file))

@@ -11,7 +11,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-PLUGIN_COUNT = 9
+PLUGIN_COUNT = 10
 ROCKYARD, PROJECT = (Path(word).resolve() for word in sys.argv[1:3])
 PLUGINS = {Path(word).stem.removeprefix("lib"): Path(word).resolve() for word in sys.argv[3:3 + PLUGIN_COUNT]}
 NOMINAL = PROJECT / "scenarios/pathfinder/nominal.json"

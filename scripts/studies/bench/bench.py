@@ -18,7 +18,7 @@ import study  # noqa: E402
 
 MANIFESTS = study.ROOT / "examples/bench"
 NAVIGATORS = study.ROOT / "examples/navigators"
-PLUGINS = ("arc_planner", "bug2", "potential_field")
+PLUGINS = ("a_star", "arc_planner", "bug2", "potential_field")
 BASELINE = "gestalt"
 CELL_W, CELL_H, LABEL_W, TOP = 11, 18, 130, 150
 
