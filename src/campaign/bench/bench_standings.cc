@@ -233,12 +233,11 @@ void RequireAlike(const BenchRun& run, const BenchRun& first) {
     if (alike) return;
     throw core::UserError(run.folder.string(),
                           fmt::format("has another {} than {}", what, first.folder.string()),
-                          "put entries of one suite, track, class and seed into one table");
+                          "put entries of one suite, class and seed into one table");
   };
   require(run.suite_digest == first.suite_digest, "suite");
   require(run.seed == first.seed, "seed");
   require(run.layouts == first.layouts, "number of layouts");
-  require(run.manifest.track == first.manifest.track, "track");
   require(run.manifest.computing == first.manifest.computing, "class of computing");
 }
 
