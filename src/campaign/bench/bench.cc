@@ -27,6 +27,10 @@ namespace {
 namespace fs = std::filesystem;
 using core::JsonValue;
 
+std::string_view NameOf(BenchTrack track) {
+  return core::EnumNames<BenchTrack>::kNames.at(static_cast<std::size_t>(track));
+}
+
 // Writes a log where a run keeps it. A log that cannot be written is missing when the run is
 // closed, which says so: nothing can be thrown where a navigator ends.
 void WriteActions(const fs::path& file, const std::string& log) {
@@ -50,6 +54,27 @@ void SetAside(const fs::path& folder) {
   }
 }
 
+// Throws where the navigator reads images and its entry says that it does not, or the other way.
+void CheckReading(BenchTrack track, const navigation::NavigatorKind& kind) {
+  const bool images = kind.traits().images;
+  if (images == (track == BenchTrack::kImages)) return;
+  throw core::UserError("track",
+                        fmt::format("is {}, and the navigator {} {}", NameOf(track), kind.name(),
+                                    images ? "asks for images" : "asks for no images"),
+                        images ? "give the entry the track images, and drive on bench/images"
+                               : "give the entry the track points, which drives on every suite");
+}
+
+// Throws where a suite does not show what the entry says that it reads.
+void CheckTrack(BenchTrack track, const std::string& suite) {
+  const auto& tracks = core::EnumNames<BenchTrack>::kNames;
+  if (track == BenchTrack::kPoints || NameOf(track) == suite) return;
+  if (std::ranges::find(tracks, suite) == tracks.end()) return;
+  throw core::UserError(
+      "track", fmt::format("is {}, and the suite is of {}", NameOf(track), suite),
+      fmt::format("drive on bench/{}; entries of points drive on every suite", NameOf(track)));
+}
+
 // Returns the campaign of a request, whose navigators are recorded below `folder`.
 CampaignRequest Recording(const BenchRequest& request, const BenchEntry& entry,
                           const fs::path& folder, std::optional<std::int64_t> seed) {
@@ -60,13 +85,16 @@ CampaignRequest Recording(const BenchRequest& request, const BenchEntry& entry,
   campaign.opened = [](const fs::path& opened, bool anew) {
     if (anew) SetAside(opened);
   };
-  campaign.prepare = [folder = fs::absolute(folder)](std::size_t index, CampaignCell& cell) {
+  campaign.prepare = [folder = fs::absolute(folder), track = entry.manifest.track](
+                         std::size_t index, CampaignCell& cell) {
     const auto write = [folder, index, name = cell.name](std::uint64_t random_seed,
                                                          const std::string& log) {
       WriteActions(folder / ActionFile(index, name, random_seed), log);
     };
+    LeaveOut(track, cell.scenario);
     cell.scenario.drive.navigation.navigators.WrapChosen(
         [&](std::unique_ptr<navigation::NavigatorKind> kind) {
+          CheckReading(track, *kind);
           return navigation::Recorded(std::move(kind), write);
         });
   };
@@ -166,6 +194,10 @@ std::int64_t IntegerIn(const JsonValue& document, const char* key, const std::st
 
 }  // namespace
 
+void LeaveOut(BenchTrack track, scenario::Scenario& cell) {
+  if (track != BenchTrack::kMap) cell.drive.course.site_map.kind = trial::SiteMapKind::kNone;
+}
+
 std::string ChainStart(const JsonValue& document, const batch::ResultStore& store) {
   std::string text;
   for (const core::JsonMember& member : document.members()) {
@@ -194,13 +226,7 @@ WorkResult RunBench(const BenchRequest& request, const RunObserver& observer, co
       throw core::UserError(sweep.file.string(), "has no common_random_numbers",
                             "take a suite of the benchmark, such as bench/points");
     }
-    const auto& tracks = core::EnumNames<BenchTrack>::kNames;
-    const auto& track = tracks.at(static_cast<std::size_t>(entry->manifest.track));
-    if (std::ranges::find(tracks, suite.name) != tracks.end() && suite.name != track) {
-      throw core::UserError("track",
-                            fmt::format("is {}, and the suite is of {}", track, suite.name),
-                            "enter it into a suite of its track");
-    }
+    CheckTrack(entry->manifest.track, suite.name);
     std::optional<std::int64_t> seed;
     if (!request.beacon.empty()) seed = BeaconSeed(suite_digest, request.beacon);
     const fs::path folder =

@@ -14,6 +14,7 @@
 #include "campaign/run_campaign.h"
 #include "campaign/work.h"
 #include "core/json_value.h"
+#include "scenario/scenario.h"
 
 namespace rockyard::campaign {
 
@@ -42,6 +43,9 @@ WorkResult RunBench(const BenchRequest& request, const RunObserver& observer = {
 // 62 bits of the SHA-256 of "rockyard bench 1", the suite's digest and the beacon's text, a line
 // each.
 std::int64_t BeaconSeed(std::string_view suite_digest, std::string_view beacon);
+
+// Leaves out of a cell what entries of the track do not read: maps of the site.
+void LeaveOut(BenchTrack track, scenario::Scenario& cell);
 
 // What a run's chain begins with: SHA-256 of the entry, the suite, the seed and who drove.
 std::string ChainStart(const core::JsonValue& document, const batch::ResultStore& store);

@@ -209,7 +209,7 @@ void RequireAlike(const BenchRun& run, const BenchRun& first) {
     throw core::UserError(run.folder.string(),
                           fmt::format("has another {} than {}: {}, and there {}", what,
                                       first.folder.string(), own, other),
-                          "put entries of one suite, seed, number of layouts, track and class into "
+                          "put entries of one suite, seed, number of layouts and class into "
                           "one table");
   };
   const auto suite = [](const BenchRun& of) {
@@ -221,7 +221,6 @@ void RequireAlike(const BenchRun& run, const BenchRun& first) {
   if (run.suite_digest != first.suite_digest) require("suite", suite(run), suite(first));
   require("seed", run.seed, first.seed);
   require("number of layouts", run.layouts, first.layouts);
-  require("track", name(run.manifest.track), name(first.manifest.track));
   require("class of computing", name(run.manifest.computing), name(first.manifest.computing));
 }
 

@@ -99,7 +99,7 @@ struct Standings {
 };
 
 // Returns the standings. `folders`: runs of entries; the first is the baseline. Throws
-// core::UserError where they are not of the same suite, layouts, track, computing and seed, or two
+// core::UserError where they are not of the same suite, layouts, computing and seed, or two
 // have one name.
 Standings MakeStandings(const std::vector<std::filesystem::path>& folders);
 

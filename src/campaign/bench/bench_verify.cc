@@ -50,7 +50,7 @@ void CheckCells(const BenchRun& run, const std::string& suite_word, const batch:
   if (core::Sha256(scenario::LoadSweep(file, {.sealed = true}).document) != run.suite_digest) {
     findings.emplace_back("the digest of the suite is another one");
   }
-  const scenario::Sweep suite =
+  scenario::Sweep suite =
       scenario::LoadSweep(file, {.overrides = SettingsOf(*run.document.Find("entry"), run.manifest),
                                  .trials = run.layouts,
                                  .seed = run.seed,
@@ -69,6 +69,7 @@ void CheckCells(const BenchRun& run, const std::string& suite_word, const batch:
           fmt::format("cell {} is {} in the suite", cells[i].name, suite.cells[i].name));
       return;
     }
+    LeaveOut(run.manifest.track, suite.cells[i].scenario);
     for (const batch::ScenarioDifference& difference : batch::FindScenarioDifferences(
              cells[i].resolved, scenario::ResolvedJson(suite.cells[i].scenario))) {
       // What a plugin has for parameters is known to the plugin alone.

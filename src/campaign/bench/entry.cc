@@ -63,7 +63,8 @@ void CheckSetting(const EntryParams& manifest, const std::string& path,
 void EntryParams::Visit(core::FieldVisitor& v) {
   v.Text("name", name, Setting("of the entry in tables"));
   v.Choice("track", track,
-           Setting("what it may see: points (of looks), map (of the site), images"));
+           Setting("what it reads: points (of looks, or reports of them), these and a map (of the "
+                   "site), images"));
   v.Choice("computing", computing,
            Setting("whether its decisions take the time of the modelled computer (budgeted)"));
   v.Text("navigator", navigator, Setting("the navigator's name in a scenario"));

@@ -13,8 +13,9 @@
 
 namespace rockyard::campaign {
 
-// What entries may see of the world, and what they may compute. Results of different tracks or
-// classes are never put into one table.
+// What entries read of the world, and what they may compute. A suite is of a track, by its name:
+// entries of its track and of points drive on it. Classes of computing are never put into one
+// table.
 enum class BenchTrack { kPoints, kMap, kImages };
 enum class BenchComputing { kUnlimited, kBudgeted };
 

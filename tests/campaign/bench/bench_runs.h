@@ -40,7 +40,7 @@ class BenchRuns : public testing::Test {
         std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/nominal.json";
     Write(Path("suite.json"), R"({
       "name": "small", "trials": 3, "seed": 4, "common_random_numbers": true,
-      "set": {"rover.fidelity": "quasi_static", "course.goal_x_m": 0.8},
+      "set": {"rover.fidelity": "quasi_static", "course.goal_x_m": 0.8, "course.site_map.kind": "both"},
       "design": {"kind": "list"},
       "cells": [
         {"name": "near/few", "scenario": ")" +

@@ -17,6 +17,7 @@ using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 class BenchVerify : public BenchRuns {
  protected:
@@ -51,6 +52,29 @@ TEST_F(BenchVerify, AnHonestRunHasNoFindings) {
   EXPECT_EQ(found.run.name(), "mine");
   EXPECT_EQ(found.run.seed, 4);
   EXPECT_EQ(found.run.layouts, 3);
+  const batch::ResultStore store = batch::ResultStore::Read(run);
+  for (const batch::CellIdentity& cell : store.identity().cells) {
+    EXPECT_THAT(cell.resolved, Not(HasSubstr("\"both\"")))
+        << "entries of points get no map of the site";
+  }
+}
+
+TEST_F(BenchVerify, TracksAreThoseOfSuitesAndNavigators) {
+  const auto refused = [&](const std::string& track, const std::string& suite) {
+    BenchRequest request = Request("refused");
+    std::string text = Read(Path("suite.json"));
+    text.replace(text.find("small"), 5, suite);
+    Write(Path("suite.json"), text);
+    Write(Path("entry.json"),
+          R"({"name": "mine", "navigator": "pathfinder", "track": ")" + track + "\"}");
+    const WorkResult result = RunBench(request);
+    return result.problems.empty() ? "" : result.problems.front().reason;
+  };
+  EXPECT_EQ(refused("map", "points"), "is map, and the suite is of points");
+  EXPECT_EQ(refused("images", "map"), "is images, and the suite is of map");
+  EXPECT_EQ(refused("images", "images"),
+            "is images, and the navigator pathfinder asks for no images");
+  EXPECT_FALSE(fs::exists(Path("refused")));
 }
 
 TEST_F(BenchVerify, APluginsDrivesComeOutByItsActionsAlone) {
