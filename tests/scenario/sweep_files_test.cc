@@ -29,6 +29,23 @@ TEST(SweepFilesTest, EveryFileIsASweepWithADescription) {
   EXPECT_GE(files, 4);
 }
 
+TEST(SweepFilesTest, SuitesOfTheBenchmarkShowWhatTheirTrackReads) {
+  const std::filesystem::path suites = ROCKYARD_SOURCE_DIR "/scenarios/bench";
+  for (const std::string track : {"points", "map", "images"}) {
+    SCOPED_TRACE(track);
+    const Sweep suite = LoadSweep(suites / (track + ".json"));
+    EXPECT_EQ(suite.name, track);
+    EXPECT_TRUE(suite.common_random_numbers);
+    for (const SweepCell& cell : suite.cells) {
+      const trial::DriveParams& drive = cell.scenario.drive;
+      EXPECT_EQ(drive.course.site_map.kind != trial::SiteMapKind::kNone, track == "map");
+      const sensing::StereoParams* cameras = drive.sensors.terrain_sensors.chosen().cameras(drive);
+      ASSERT_NE(cameras, nullptr);
+      EXPECT_EQ(cameras->fidelity == sensing::StereoFidelity::kImage, track == "images");
+    }
+  }
+}
+
 TEST(SweepFilesTest, AbundanceVariesAbundanceAlone) {
   const Sweep sweep = LoadSweep(kSweeps / "abundance.json");
   std::set<std::uint64_t> rest;
