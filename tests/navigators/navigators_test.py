@@ -205,6 +205,8 @@ class Drives(plugin_drives.PluginTest):
             self.assertTrue(own)
             self.assertNotIn("navigator_fault", {row["outcome"] for row in rows})
             self.assertTrue(any(float(row[key]) > 0 for row in rows for key in own), own)
+        told = ("--set", "course.site_map.kind=rocks", "--set", "course.site_map.cell_m=0.2")
+        self.assertNotEqual(self.run_hash("a_star_map", ("--plugin", PLUGINS["a_star"], *told)), self.hash_of("a_star"))
 
     def photographed(self, name, more):
         """Returns own values and hash of drives of the navigator that tells what images it gets."""

@@ -29,6 +29,23 @@ TEST(SweepFilesTest, EveryFileIsASweepWithADescription) {
   EXPECT_GE(files, 4);
 }
 
+TEST(SweepFilesTest, SuitesOfTheBenchmarkShowWhatTheirTrackReads) {
+  const std::filesystem::path suites = ROCKYARD_SOURCE_DIR "/scenarios/bench";
+  for (const std::string track : {"points", "map", "images"}) {
+    SCOPED_TRACE(track);
+    const Sweep suite = LoadSweep(suites / (track + ".json"));
+    EXPECT_EQ(suite.name, track);
+    EXPECT_TRUE(suite.common_random_numbers);
+    for (const SweepCell& cell : suite.cells) {
+      const trial::DriveParams& drive = cell.scenario.drive;
+      EXPECT_EQ(drive.course.site_map.kind != trial::SiteMapKind::kNone, track == "map");
+      const sensing::StereoParams* cameras = drive.sensors.terrain_sensors.chosen().cameras(drive);
+      ASSERT_NE(cameras, nullptr);
+      EXPECT_EQ(cameras->fidelity == sensing::StereoFidelity::kImage, track == "images");
+    }
+  }
+}
+
 TEST(SweepFilesTest, AbundanceVariesAbundanceAlone) {
   const Sweep sweep = LoadSweep(kSweeps / "abundance.json");
   std::set<std::uint64_t> rest;
@@ -87,15 +104,17 @@ TEST(SweepFilesTest, DeadReckoningIsSweptOverAbundanceDistanceAndItsErrors) {
 
 TEST(SweepFilesTest, NavigatorsMeetTheSameRocks) {
   const Sweep sweep = LoadSweep(kSweeps / "navigators.json");
-  ASSERT_EQ(sweep.cells.size(), 8u);
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Scenario& behaviour = sweep.cells[i].scenario;
-    const Scenario& gestalt = sweep.cells[i + 4].scenario;
-    EXPECT_EQ(behaviour.seed, gestalt.seed);
-    EXPECT_EQ(behaviour.drive.navigation.navigators.chosen().name(), "pathfinder");
-    EXPECT_EQ(gestalt.drive.navigation.navigators.chosen().name(), "gestalt");
-    EXPECT_EQ(behaviour.drive.terrain.rocks.k_per_m2, gestalt.drive.terrain.rocks.k_per_m2);
-    EXPECT_EQ(behaviour.drive.course.goal_x_m, gestalt.drive.course.goal_x_m);
+  const std::vector<std::string> navigators{"pathfinder", "gestalt", "enav"};
+  ASSERT_EQ(sweep.cells.size(), 4 * navigators.size());
+  for (std::size_t i = 0; i < sweep.cells.size(); ++i) {
+    const Scenario& first = sweep.cells[i % 4].scenario;
+    const Scenario& cell = sweep.cells[i].scenario;
+    EXPECT_EQ(cell.seed, first.seed);
+    EXPECT_EQ(cell.drive.navigation.navigators.chosen().name(), navigators[i / 4]);
+    EXPECT_EQ(cell.drive.terrain.rocks.k_per_m2, first.drive.terrain.rocks.k_per_m2);
+    EXPECT_EQ(cell.drive.course.goal_x_m, first.drive.course.goal_x_m);
+    EXPECT_EQ(cell.drive.perception.dead_reckoning.distance_scale,
+              first.drive.perception.dead_reckoning.distance_scale);
   }
 }
 
