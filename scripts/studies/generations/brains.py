@@ -21,9 +21,10 @@ EVERYWHERE = {"rover.fidelity": "quasi_static", "referee.no_path_distance_m": 40
 ABUNDANCES = (0.002, 0.0055, 0.009, 0.0125)  # k of Moore's law, per m2; nominal Mars is 0.00415, Viking Lander 2 0.013
 SLOPES = {"level": (0, 0), "5 deg up": (5, 0), "10 deg up": (10, 0), "10 deg across": (10, 90)}
 DEAD, VISUAL, PERFECT, IDEAL = "dead reckoning", "visual odometry", "perfect pose", "perfect pose, exact points"
-KNOWS = {DEAD: {"localization.estimator": "dead_reckoning", "sensors.visual_odometry.enabled": False},
-         VISUAL: {}, PERFECT: {"localization.estimator": "oracle"},
-         IDEAL: {"localization.estimator": "oracle", "sensors.stereo.fidelity": "ideal"}}
+BLIND = {"sensors.visual_odometry.enabled": False}  # the clock has no images of it, either
+KNOWS = {DEAD: BLIND | {"localization.estimator": "dead_reckoning"}, VISUAL: {},
+         PERFECT: BLIND | {"localization.estimator": "oracle"},
+         IDEAL: BLIND | {"localization.estimator": "oracle", "sensors.stereo.fidelity": "ideal"}}
 ENAV = {"navigation.navigator": "enav", "navigation.enav.tree.lengths": "by_wheelbase",
         "navigation.enav.drive.goal_tolerance_m": 0.5}
 GESTALT, WAY = "navigation.gestalt.", "navigation.gestalt.remedies.cost_to_go."
