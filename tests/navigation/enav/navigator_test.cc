@@ -17,6 +17,7 @@ struct EnavSetup {
   HeightAt height = Flat();
   int latency_ticks = 0;  // from a look on the move to its answer
   FeltSource felt = Nothing();
+  std::function<bool(const FakeRover&)> touches_behind = [](const FakeRover&) { return false; };
 };
 
 struct EnavTick {
@@ -60,6 +61,7 @@ class EnavDrive final : public LoggedDrive<EnavTick, EnavNavigator> {
     }
     const auto felt = setup_.felt(rover_);
     if (felt) input.vehicle_hazard = &*felt;
+    input.touches_behind = setup_.touches_behind(rover_);
     tick.decision = navigator_.Decide(input);
     if (tick.decision.looks()) {
       Look();
@@ -259,6 +261,28 @@ TEST(Enav, BacksOffFromWhatItFeels) {
   EXPECT_GT(aside_m, 1.4);
   setup.felt = FeltBeyond(2.5);
   EXPECT_EQ(EnavDrive(setup).Run(), NavigatorStatus::kGaveUp);
+}
+
+// The way back ends where something touches its rear, and is none where it does at once. A hazard
+// on the left leads it by on the right.
+TEST(Enav, BacksOffNoFartherThanItCan) {
+  for (const double free_m : {0.2, 0.0}) {
+    EnavSetup setup;
+    setup.felt = FeltOnceBeyond(2.5, kTouchAhead);
+    setup.touches_behind = [=, most_m = 0.0](const FakeRover& rover) mutable {
+      most_m = std::max(most_m, rover.X_WR().x_m);
+      return most_m >= 2.5 && most_m < 3.0 && rover.X_WR().x_m <= most_m - free_m;
+    };
+    EnavDrive drive(setup);
+    ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
+    double back_m = 0.0;
+    for (const EnavTick& tick : drive.log()) {
+      const bool back =
+          tick.Moves(messages::MotionKind::kArc) && tick.decision.motion.direction < 0;
+      back_m += back ? 0.025 : 0.0;
+    }
+    EXPECT_NEAR(back_m, free_m, 0.03);
+  }
 }
 
 // A correction moves the goal in the frame of odometry and nothing else; operators that move the
