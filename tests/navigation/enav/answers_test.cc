@@ -183,9 +183,9 @@ TEST(PlannerAnswers, EndsAbeamOfTheGoalWithinItsTolerance) {
     EXPECT_EQ(plan.curvature_per_m, 0.0);
     EXPECT_NEAR(plan.length_m, tolerance_m < 0.8 ? 3.0 : 2.0, 1e-12);
   }
-  params.tree.arc_m = 1.1;  // eleven tenths and two roundings
-  params.tree.check_spacing_m = 0.1;
-  EXPECT_EQ(PathTree(params.tree).arcs()[0].poses.size(), 11u);
+  params.tree.arc_m = 2.1;  // seven times 0.3, but for rounding
+  params.tree.check_spacing_m = 0.3;
+  EXPECT_EQ(PathTree(params.tree).arcs()[0].poses.size(), 7u);
 }
 
 // Ground in its own cell stops no rover, however rough; what was felt is forgotten with the map.
