@@ -45,8 +45,7 @@ RemedyTurn RemedyTurns::InsteadOf(std::optional<double> goes_on_m, double turned
                            ? saves || orbits || LiesInsideTightestCircle(origin.pose, goal)
                            : saves && (far_aside || (!goes_on_m && SearchesWay()));
   if (!instead) return {};
-  // What lies far aside is looked at first.
-  return {turn.angle_rad, !goes_on_m && !far_aside};
+  return {turn.angle_rad, !goes_on_m && turn.seen};
 }
 
 RemedyTurns::Directions RemedyTurns::Sensible() const {
@@ -84,7 +83,8 @@ RemedyTurns::Turn RemedyTurns::BestTurnBefore(double length_m, Directions direct
     const HazardVote hazard = VoteOnPath(
         grid, turned, std::span(straight_).first(sampling_.CountWithin(length_m)), sampling_.weight,
         params_.votes.min_allowed_goodness, params_.plan.unknown_cells);
-    if (hazard.goodness > params_.drive.min_drive_goodness) best = {angle_rad, way_m};
+    if (hazard.goodness <= params_.drive.min_drive_goodness) return;
+    best = {angle_rad, way_m, grid.At(end.x_m, end.y_m).known};
   };
   consider(TowardsGoal(pose, goal).bearing_rad);
   if (directions == Directions::kTowardsGoal) return best;

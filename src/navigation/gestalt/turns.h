@@ -40,6 +40,7 @@ class RemedyTurns {
   struct Turn {
     double angle_rad = 0.0;
     double way_m = 0.0;
+    bool seen = false;  // the drive's end; what was not is looked at before it is driven
   };
 
   // Where turns may lead. Without a way that was searched all round is no good rule: before a wall

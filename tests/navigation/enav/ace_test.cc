@@ -140,14 +140,6 @@ TEST(Ace, IsViolatedByBoxesThatAreTooSmall) {
   EXPECT_GT(held.violations, 10);
 }
 
-HeightMap Map(const Ground& ground) {
-  HeightMap map(0.1, 12.0);
-  map.ForEach([&](const LatticeCell& at, HeightCell& cell) {
-    cell.Add(ground(map.MiddleX_m(at), map.MiddleY_m(at)));
-  });
-  return map;
-}
-
 double LevelGround(double, double) { return 0.7; }
 
 TEST(Ace, SeesTheNominalClearanceOnLevelGround) {

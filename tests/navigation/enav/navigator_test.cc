@@ -17,6 +17,7 @@ struct EnavSetup {
   HeightAt height = Flat();
   int latency_ticks = 0;  // from a look on the move to its answer
   FeltSource felt = Nothing();
+  std::function<bool(const FakeRover&)> touches_behind = [](const FakeRover&) { return false; };
 };
 
 struct EnavTick {
@@ -60,6 +61,7 @@ class EnavDrive final : public LoggedDrive<EnavTick, EnavNavigator> {
     }
     const auto felt = setup_.felt(rover_);
     if (felt) input.vehicle_hazard = &*felt;
+    input.touches_behind = setup_.touches_behind(rover_);
     tick.decision = navigator_.Decide(input);
     if (tick.decision.looks()) {
       Look();
@@ -182,6 +184,47 @@ TEST(Enav, RetriesAndGivesUpWhereItsChecksDoNotDo) {
   EXPECT_THAT(drive.navigator().own_values(), testing::ElementsAre(4.0, 10.0, 4.0, 0.5));
 }
 
+// To the goal's side, and as often again for the next goal.
+TEST(Enav, RetriesToTheGoalsSideAndAnewForTheNext) {
+  for (const double side : {1.0, -1.0}) {
+    for (const GoalChange change : {GoalChange::kNext, GoalChange::kMoved}) {
+      EnavSetup setup;
+      setup.params.drive.max_checks = 10;
+      setup.params.drive.max_retries = 3;
+      setup.goal = {8.0, 4.0 * side};
+      EnavDrive drive(setup);
+      drive.StepUntil([&](const EnavTick& tick) { return side * tick.X_WR.heading_rad > 0.6; });
+      drive.SetGoal({8.0, 4.0 * side}, change);
+      ASSERT_EQ(drive.Run(), NavigatorStatus::kGaveUp);
+      const double turns = change == GoalChange::kNext ? 5.0 : 3.0;
+      EXPECT_NEAR(side * drive.rover().X_WR().heading_rad, turns * DegToRad(30.0), 0.13);
+    }
+  }
+}
+
+// Hazards count from the last progress, and are avoided no longer than that.
+TEST(Enav, ForgetsWhatItFeltAsItGetsOn) {
+  EnavSetup setup;
+  setup.goal = {14.0, 0.0};
+  setup.params.drive.max_felt = 1;
+  setup.felt = [first = FeltOnceBeyond(2.5, kTouchAhead),
+                second = FeltOnceBeyond(8.0, kTouchAhead)](const FakeRover& rover) mutable {
+    const auto felt = first(rover);
+    return felt ? felt : second(rover);
+  };
+  EnavDrive drive(setup);
+  ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  const std::size_t there = drive.log().size();
+  drive.SetGoal({0.0, 0.0}, GoalChange::kNext);
+  ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  double aside_m = 0.0;
+  for (std::size_t i = there; i < drive.log().size(); ++i) {
+    const math::Pose2& at = drive.log()[i].X_WR;
+    if (std::abs(at.x_m - 3.9) < 0.3) aside_m = std::max(aside_m, std::abs(at.y_m));
+  }
+  EXPECT_LT(aside_m, 1.2);
+}
+
 TEST(Enav, PlansOnTheMove) {
   EnavSetup setup;
   setup.params.continuous.cycle = EnavCycle::kCsod;
@@ -218,6 +261,28 @@ TEST(Enav, BacksOffFromWhatItFeels) {
   EXPECT_GT(aside_m, 1.4);
   setup.felt = FeltBeyond(2.5);
   EXPECT_EQ(EnavDrive(setup).Run(), NavigatorStatus::kGaveUp);
+}
+
+// The way back ends where something touches its rear, and is none where it does at once. A hazard
+// on the left leads it by on the right.
+TEST(Enav, BacksOffNoFartherThanItCan) {
+  for (const double free_m : {0.2, 0.0}) {
+    EnavSetup setup;
+    setup.felt = FeltOnceBeyond(2.5, kTouchAhead);
+    setup.touches_behind = [=, most_m = 0.0](const FakeRover& rover) mutable {
+      most_m = std::max(most_m, rover.X_WR().x_m);
+      return most_m >= 2.5 && most_m < 3.0 && rover.X_WR().x_m <= most_m - free_m;
+    };
+    EnavDrive drive(setup);
+    ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
+    double back_m = 0.0;
+    for (const EnavTick& tick : drive.log()) {
+      const bool back =
+          tick.Moves(messages::MotionKind::kArc) && tick.decision.motion.direction < 0;
+      back_m += back ? 0.025 : 0.0;
+    }
+    EXPECT_NEAR(back_m, free_m, 0.03);
+  }
 }
 
 // A correction moves the goal in the frame of odometry and nothing else; operators that move the

@@ -337,4 +337,12 @@ inline BoundsHeld HoldBounds(const AceParams& params, const messages::RoverBelie
   return held;
 }
 
+inline HeightMap Map(const Ground& ground) {
+  HeightMap map(0.1, 12.0);
+  map.ForEach([&](const LatticeCell& at, HeightCell& cell) {
+    cell.Add(ground(map.MiddleX_m(at), map.MiddleY_m(at)));
+  });
+  return map;
+}
+
 }  // namespace rockyard::navigation
