@@ -1,5 +1,7 @@
 // rockyard bench: an entry from its manifest to a table, and exit codes.
 
+#include <cmath>
+
 #include "app/command.h"
 
 namespace rockyard::app {
@@ -10,13 +12,14 @@ class CliBench : public CommandTest {
   CliBench() {
     WriteFile(work() / "suite.json", R"({
       "name": "small", "trials": 2, "seed": 4, "common_random_numbers": true,
-      "set": {"rover.fidelity": "quasi_static", "course.goal_x_m": 0.5},
+      "set": {"course.goal_x_m": 2},
       "design": {"kind": "list"},
       "cells": [{"name": "a/few", "scenario": ")" +
-                                         Scenario("nominal") + R"("}]})");
+                                         Source("scenarios/bench/points_athena_sdm.json") +
+                                         R"("}]})");
     for (const char* name : {"first", "second"}) {
       WriteFile(work() / (std::string(name) + ".json"),
-                std::string(R"({"navigator": "pathfinder", "name": ")") + name + "\"}");
+                std::string(R"({"navigator": "gestalt", "name": ")") + name + "\"}");
     }
   }
 
@@ -28,17 +31,22 @@ class CliBench : public CommandTest {
 };
 
 TEST_F(CliBench, FromEntriesToATable) {
-  EXPECT_THAT(Drive("first").out, Says("head: ", "next: rockyard bench verify first"));
+  EXPECT_THAT(Drive("first").out, AllOf(Says("head: ", "next: rockyard bench verify first"),
+                                        Not(HasSubstr("next: rockyard report"))));
   EXPECT_EQ(Drive("second", {"--quiet"}).out, "");
   RunTo(2, {"bench", "run", "first.json", "--suite", "suite.json", "--out", "first"});
-  EXPECT_THAT(
-      RunTo(0, {"bench", "report", "first", "second", "--out", "table"}).out,
-      Says("small: 2 layouts", "| first |", "| second |", "standings in table/standings.csv"));
+  EXPECT_THAT(RunTo(0, {"bench", "report", "first", "second", "--out", "table"}).out,
+              Says("small: 2 layouts", "| first |", "| second |",
+                   "standings in table/standings.csv", "page in table/index.html"));
+  EXPECT_THAT(ReadFile(work() / "table/index.html"),
+              HasSubstr("<title>Benchmark small: 2 entries"));
   EXPECT_THAT(ReadFile(work() / "table/ends.csv"), HasSubstr("first,goal_reached_within_5_m,"));
   const json rows = json::parse(RunTo(0, {"bench", "report", "first", "second", "--json"}).out);
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows[0]["score"], rows[1]["score"]);
   EXPECT_EQ(rows[1]["difference"], 0);
+  EXPECT_EQ(rows[0]["regret_drives"], 2);
+  EXPECT_LT(std::abs(rows[0]["regret"].get<double>()), 0.05) << "two metres straight ahead";
 }
 
 TEST_F(CliBench, VerifyTellsByItsExitCode) {

@@ -98,8 +98,12 @@ messages::Route Plan(const DriveParams& drive, std::span<const terrain::Rock> ro
   return StraightWay(*grid, start, goal);
 }
 
+// The demands from this one on are what a rover needs, rather than what is safe.
+constexpr std::size_t kOfNeed = 4;
+
+// Returns the route of the first demand, from that place on, that has one.
 PlannedRoute PlanByDemands(const DriveParams& drive, std::span<const terrain::Rock> rocks,
-                           const Goal& goal) {
+                           const Goal& goal, std::size_t from = 0) {
   const rover::RoverGeometryParams& rover = drive.rover.geometry;
   const RoutePlanParams& params = drive.course.oracle_route;
   const double belly_m = rover.belly_clearance_m;
@@ -115,7 +119,7 @@ PlannedRoute PlanByDemands(const DriveParams& drive, std::span<const terrain::Ro
                            Demand{belly_m, passing_m + params.margin_m},
                            Demand{belly_m, passing_m},
                            Demand{belly_m, squeezing_m}};
-  for (const Demand& demand : demands) {
+  for (const Demand& demand : std::span(demands).subspan(from)) {
     messages::Route route = Plan(drive, rocks, goal, demand);
     if (!route.corners.empty()) return {demand, std::move(route)};
   }
@@ -201,7 +205,7 @@ messages::Route PlanRoute(const DriveParams& drive, std::span<const terrain::Roc
 std::optional<double> OptimisticWay_m(const DriveParams& drive,
                                       std::span<const terrain::Rock> rocks, const Goal& goal,
                                       double range_m) {
-  const PlannedRoute known = PlanByDemands(drive, rocks, goal);
+  const PlannedRoute known = PlanByDemands(drive, rocks, goal, kOfNeed);
   if (known.route.corners.empty()) return std::nullopt;
   const Goal start{drive.course.start_x_m, drive.course.start_y_m};
   OptimisticDrive optimist(*OpenGrid(drive, known.demand.room_m), known.demand, rocks, range_m);

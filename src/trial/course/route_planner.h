@@ -40,11 +40,12 @@ messages::Route PlanRoute(const DriveParams& drive, std::span<const terrain::Roc
 // seen, follows the shortest way on the grid of PlanRoute, pulled straight, and plans anew where a
 // rock comes to light on what is left of it (freespace assumption: Koenig, Tovey and Smirnov 2003;
 // Stentz 1994). It sees, all round and behind other rocks, each rock whose outline, lengthened by
-// range_m, holds its centre, and keeps to the first demand under which PlanRoute has a route. It
-// ends at the goal itself. Nothing where there is no route. It is no shorter than that route, which
-// corners pulled straight could else undercut by some 1 %, and as long with an infinite range; both
-// are up to 2 % longer than the shortest way in the plane. range_m must exceed the demand's room.
-// No random numbers. Cost: some plans of PlanRoute.
+// range_m, holds its centre. It meets demand 5, else 6: the more generous ones lead round whole
+// fields that rovers cross. Nothing where neither has a route. It ends at the goal itself. It is no
+// shorter than the route by that demand of who knows all rocks, which corners pulled straight could
+// else undercut by some 1 %, and as long with an infinite range; both are up to 2 % longer than the
+// shortest way in the plane. range_m must exceed the demand's room. No random numbers. Cost: some
+// plans of PlanRoute.
 std::optional<double> OptimisticWay_m(const DriveParams& drive,
                                       std::span<const terrain::Rock> rocks,
                                       const messages::Goal& goal, double range_m);

@@ -221,8 +221,31 @@ TEST_F(BenchVerify, BadInputSetsNothingAside) {
   Write(Path("entry.json"), R"({"name": "mine", "navigator": "pathfinder",
                                 "set": {"navigation.pathfinder.no_such_key": 2}})");
   request.campaign.existing = ExistingRun::kSetAside;
-  EXPECT_EQ(RunBench(request).outcome, Outcome::kBadInput);
+  const WorkResult result = RunBench(request);
+  EXPECT_EQ(result.outcome, Outcome::kBadInput);
+  EXPECT_EQ(result.problems.at(0).path,
+            Path("entry.json").string() + ": navigation.pathfinder.no_such_key");
   EXPECT_EQ(ReadBenchRun(Path("run")).head, head);
+}
+
+TEST_F(BenchVerify, WhatDiffersFromTheRunThatIsResumedIsNamed) {
+  Driven();
+  BenchRequest request = Request("run");
+  request.campaign.existing = ExistingRun::kResume;
+  const auto named = [](const BenchRequest& wanted) {
+    const WorkResult result = RunBench(wanted);
+    EXPECT_EQ(result.outcome, Outcome::kBadInput);
+    return result.problems.empty() ? std::string() : result.problems[0].path;
+  };
+  request.beacon = "round 1";
+  EXPECT_EQ(named(request), "--beacon");
+  request.beacon.clear();
+  request.campaign.program = "another";
+  EXPECT_EQ(named(request), "this program");
+  request.campaign.program.clear();
+  EXPECT_EQ(RunBench(request).outcome, Outcome::kDone);
+  Write(Path("entry.json"), R"({"name": "mine", "navigator": "pathfinder"})");
+  EXPECT_EQ(named(request), Path("entry.json").string());
 }
 
 TEST_F(BenchVerify, ASeedThatWasLookedForByTheSuitesDigest) {

@@ -4,6 +4,7 @@
 
 #include "batch/campaign_differences.h"
 #include "bench_runs.h"
+#include "campaign/bench/bench_page.h"
 #include "campaign/bench/bench_standings.h"
 #include "core/error.h"
 #include "experiments/drive/drive_experiment.h"
@@ -11,6 +12,8 @@
 namespace rockyard::campaign {
 namespace {
 
+using testing::AllOf;
+using testing::EndsWith;
 using testing::HasSubstr;
 using truth::TrialOutcome;
 
@@ -19,12 +22,30 @@ constexpr TrialOutcome kFalse = TrialOutcome::kFalseGoal;
 constexpr TrialOutcome kTip = TrialOutcome::kTipOver;
 constexpr TrialOutcome kNo = TrialOutcome::kNoPath;
 
+// What a cell is by the end of its name, with stereo cameras and so few rocks that there are none;
+// the goal is 7.6 m away. Cells of other names have no stereo cameras.
+const std::map<std::string, std::string> kCells{
+    {"seen", R"("terrain": {"rocks": {"k_per_m2": 1e-9}})"},
+    {"drawn", R"("terrain": {"rocks": {"kind": "none"}})"},
+    {"pits", R"("terrain": {"ground": {"pits": {"x_m": [3], "y_m": [1], "diameter_m": [0.5],
+                "depth_m": [0.1]}}, "rocks": {"k_per_m2": 1e-9}})"},
+    {"waypoints", R"("course": {"waypoints": {"x_m": [3], "y_m": [0]}},
+                     "terrain": {"rocks": {"k_per_m2": 1e-9}})"}};
+
+std::string ScenarioOf(const std::string& cell) {
+  const auto found = kCells.find(cell.substr(cell.find('/') + 1));
+  if (found == kCells.end()) return "{}";
+  return R"({"sensors": {"terrain_sensor": "stereo"}, "navigation": {"navigator": "gestalt"}, )" +
+         found->second + "}";
+}
+
 // Outcomes by layout, of each cell.
 using Outcomes = std::map<std::string, std::vector<TrialOutcome>>;
 
 class StandingsTest : public BenchRuns {
  protected:
-  // Ways and times are 10 times `scale`; what is driven without progress grows with the layout.
+  // Ways and times are 10 m and 1 m more with each layout, times `scale`; so grows what is driven
+  // without progress. Drives end 0.5 m from the goal.
   fs::path Made(const std::string& name, const Outcomes& outcomes, double scale = 1.0,
                 std::int64_t seed = 4) const {
     const fs::path folder = Path(name);
@@ -34,8 +55,10 @@ class StandingsTest : public BenchRuns {
     identity.build = "b";
     identity.schema = experiments::DriveSchema({});
     for (const auto& [cell, ends] : outcomes) {
-      identity.cells.push_back({cell, "", batch::ResolvedFingerprint(core::JsonValue::Object()),
-                                "{}", static_cast<std::uint64_t>(seed)});
+      const std::string resolved = core::DumpJson(core::ParseJson(ScenarioOf(cell), cell));
+      identity.cells.push_back({cell, "",
+                                batch::ResolvedFingerprint(core::ParseJson(resolved, cell)),
+                                resolved, static_cast<std::uint64_t>(seed)});
     }
     const auto layouts = static_cast<std::int64_t>(outcomes.begin()->second.size());
     batch::ResultStore store = batch::ResultStore::Create(folder, identity, layouts);
@@ -46,9 +69,14 @@ class StandingsTest : public BenchRuns {
         std::vector<double> values(identity.schema.size(), 0.0);
         for (std::size_t c = 0; c < values.size(); ++c) {
           const std::string& column = identity.schema[c].name;
-          if (column == "true_distance_m" || column == "active_time_s") values[c] = 10.0 * scale;
+          const double layout = static_cast<double>(i);
+          if (column == "true_distance_m" || column == "active_time_s") {
+            values[c] = (10.0 + layout) * scale;
+          }
+          if (column == "true_goal_distance_m") values[c] = 0.5;
+          if (column == "rocks") values[c] = rocks_;
           if (column == "active_energy_wh") values[c] = 1.0;
-          if (column == "no_progress_distance_m") values[c] = 4.0 * (1.0 + static_cast<double>(i));
+          if (column == "no_progress_distance_m") values[c] = 4.0 * (1.0 + layout);
           if (column == "scrapes" && i == 0) values[c] = 2.0;
         }
         rows.push_back({cell, {i, ends[i], "", values}});
@@ -68,6 +96,8 @@ class StandingsTest : public BenchRuns {
     Write(folder / kBenchFile, core::DumpJson(document));
     return folder;
   }
+
+  double rocks_ = 0.0;  // as records have them
 };
 
 TEST_F(StandingsTest, LayoutsAreTheUnitsAndGroupsWeighAlike) {
@@ -137,12 +167,65 @@ TEST_F(StandingsTest, RanksAreThoseThatAllPairsAtOnceAllow) {
   }
 }
 
+// By hand: ways of 10.5, 11.5 and 13.5 m to a goal at 7.6 m, in layouts with two, one and two of
+// the drives; layout 2 has none.
+TEST_F(StandingsTest, RegretIsThatOfDrivesThatArriveByLayouts) {
+  const Outcomes outcomes{
+      {"a/seen", {kYes, kYes, kNo, kYes}},   {"b/seen", {kYes, kFalse, kTip, kYes}},
+      {"c/blind", {kYes, kYes, kYes, kYes}}, {"c/drawn", {kYes, kYes, kYes, kYes}},
+      {"c/pits", {kYes, kYes, kYes, kYes}},  {"c/waypoints", {kYes, kYes, kYes, kYes}}};
+  const Standings standings = MakeStandings({Made("base", outcomes)});
+  EXPECT_EQ(standings.why_no_regret, "");
+  const Standing& base = standings.entries.at(0);
+  EXPECT_EQ(base.regret.drives, 5);
+  EXPECT_NEAR(base.regret.mean.value, (2 * 10.5 + 11.5 + 2 * 13.5) / 5.0 / 7.6 - 1.0, 1e-9);
+  EXPECT_NEAR(base.regret.mean.interval.low, -0.026464, 1e-5);
+  EXPECT_NEAR(base.regret.mean.interval.high, 1.158042, 1e-5);
+  EXPECT_NEAR(base.groups.at(0).regret.mean.value, (10.5 + 11.5 + 13.5) / 3.0 / 7.6 - 1.0, 1e-9);
+  EXPECT_EQ(base.cells.at(1).regret.drives, 2);
+  for (std::size_t c = 2; c < base.cells.size(); ++c) {
+    EXPECT_TRUE(std::isnan(base.cells[c].regret.mean.value)) << base.cells[c].name;
+  }
+  EXPECT_THAT(standings.Cells().Csv(), HasSubstr("base,c/drawn,1,1,0,0,0,,,,0\n"));
+  EXPECT_THAT(standings.Table().Csv(), HasSubstr(",5,same,same\n"));
+}
+
+TEST_F(StandingsTest, NoRegretAmongOtherRocksThanThoseOfTheRecords) {
+  rocks_ = 1.0;
+  const Standings standings = MakeStandings({Made("base", {{"a/seen", {kYes, kYes}}})});
+  EXPECT_THAT(standings.why_no_regret, HasSubstr("no regret is told: "));
+  EXPECT_EQ(standings.entries.at(0).regret.drives, 0);
+}
+
+TEST_F(StandingsTest, ThePageHasWhatPartsTwoEntries) {
+  const Standings standings =
+      MakeStandings({Made("base", {{"a/1 x", {kYes, kNo, kYes}}, {"b/1", {kNo, kNo, kYes}}}),
+                     Made("new", {{"a/1 x", {kNo, kYes, kYes}}, {"b/1", {kNo, kNo, kYes}}})});
+  const core::JsonValue page = core::ParseJson(BenchPageJson(standings, "made"), "page");
+  for (const core::JsonValue& entry : page.Find("entries")->list()) {
+    EXPECT_EQ(entry.Find("not_told_from")->list().size(), 1u);
+    const auto& splits = entry.Find("splits")->list();
+    ASSERT_EQ(splits.size(), entry.Find("name")->text() == "new" ? 1u : 0u);
+    if (splits.empty()) continue;
+    EXPECT_EQ(core::CompactJson(*splits[0].Find("entry")), "[1]");
+    EXPECT_EQ(core::CompactJson(*splits[0].Find("baseline")), "[0]");
+    EXPECT_THAT(splits[0].Find("command")->text(),
+                AllOf(HasSubstr("/new --cell 'a/1 x' --trial {trial} --with "), EndsWith("/base")));
+  }
+}
+
 TEST_F(StandingsTest, OnlyWhatMetTheSameLayoutsIsCompared) {
   const fs::path base = Made("base", {{"a/1", {kYes, kNo}}});
   EXPECT_THROW(MakeStandings({base, base}), core::UserError) << "one name twice";
   EXPECT_THROW(MakeStandings({base, Made("other", {{"a/1", {kYes, kNo}}}, 1.0, 5)}),
                core::UserError);
-  EXPECT_THROW(MakeStandings({base, Made("fewer", {{"a/1", {kYes}}})}), core::UserError);
+  try {
+    MakeStandings({base, Made("fewer", {{"a/1", {kYes}}})});
+    ADD_FAILURE() << "not refused";
+  } catch (const core::UserError& error) {
+    EXPECT_THAT(error.problems().front().reason,
+                AllOf(HasSubstr("number of layouts"), EndsWith(": 1, and there 2")));
+  }
 }
 
 }  // namespace
