@@ -61,7 +61,8 @@ def cells_of(runs, first, root=ROOT):
     cells = {}
     for call in (runs / "calls").read_text(encoding="utf-8").splitlines() if (runs / "calls").is_file() else []:
         folder, *words = call.split("\037")[:-1]
-        found = parsed(words, root) if words and words[0] in DRIVES else None
+        # A plugin is of the runs, and does not last.
+        found = parsed(words, root) if words and words[0] in DRIVES and "--plugin" not in words else None
         if not found:
             continue
         path, options = (Path(folder) / found[0]).resolve(), found[1]
