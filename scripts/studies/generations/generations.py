@@ -12,7 +12,7 @@ arrivals over the 16 cells, intervals are Student's over layouts, differences ar
   generations_envelope   ENav over the choices that its papers leave open
 and writes generations.csv, a row for each navigator, knowledge and cell.
 
-    scripts/studies/generations/generations.py [--layouts 30] [--markdown results/generations.md]
+    scripts/studies/generations/generations.py [--layouts 20] [--markdown results/generations.md]
 """
 
 import json
@@ -188,7 +188,7 @@ def csv_rows(drives):
 def main():
     parser = study.argument_parser(__doc__)
     study.add_program(parser, threads=True)
-    parser.add_argument("--layouts", type=int, default=30, help="of each cell (30)")
+    parser.add_argument("--layouts", type=int, default=20, help="of each cell (20)")
     parser.add_argument("--seed", type=int, default=20261130, help="of the layouts: none that anything was tuned on")
     parser.add_argument("--out", type=Path, default=study.ROOT / "results/runs/generations")
     args = study.parse_with_tables(parser, TABLES)
