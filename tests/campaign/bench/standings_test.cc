@@ -139,6 +139,7 @@ TEST_F(StandingsTest, PairsOfLayoutsDecide) {
   EXPECT_NEAR(of["base"]->score.interval.high, 0.5 + 2.262157 / 6.0, 1e-5);
   EXPECT_NEAR(of["better"]->difference.value, 0.4, 1e-12);
   EXPECT_EQ(of["better"]->verdict, Verdict::kBetter);
+  EXPECT_TRUE(of["better"]->not_told_from.contains("base")) << "of six pairs it is one";
   EXPECT_NEAR(of["better"]->way_ratio, 2.0, 1e-12) << "of drives in which both arrive";
   EXPECT_NEAR(of["better"]->time_ratio, 2.0, 1e-12);
   EXPECT_NEAR(of["better"]->energy_ratio, 1.0, 1e-12);
@@ -161,6 +162,7 @@ TEST_F(StandingsTest, RanksAreThoseThatAllPairsAtOnceAllow) {
   ASSERT_EQ(standings.entries.size(), 3u);
   EXPECT_EQ(standings.entries[0].best_rank, 1);
   EXPECT_EQ(standings.entries[0].worst_rank, 1);
+  EXPECT_TRUE(standings.entries[0].not_told_from.empty());
   for (const std::size_t i : {1u, 2u}) {
     EXPECT_EQ(standings.entries[i].best_rank, 2);
     EXPECT_EQ(standings.entries[i].worst_rank, 3);
