@@ -161,7 +161,7 @@ def others(outcomes, *but, none="-"):
 
 def ends(run, *but, none="-"):
     """Outcomes of a run with their counts, by name; those of no_path by who ended the drive; `but`: what is left out."""
-    counts = dict(run.summary["outcomes"])
+    counts = dict(sorted(run.outcomes.items()))
     counts |= {f"no_path ({cause})": run.summary["causes"].get(cause, 0) for cause in NO_PATH if counts.get("no_path")}
     return others(counts, *but, "no_path", "simulator_fault", none=none)
 

@@ -195,7 +195,7 @@ class NavigatorStudy(StudyTest):
         table = "\n".join(self.lines("navigators.md"))
         self.assertIn("| +0 (-42..+42) | 1 | 30 | 3.00 (2.50..3.50) |", table)
         self.assertIn("| +0 (-42..+42) | 1 | 0 | - | - | - |", table)
-        self.assertIn("no_path 2", table)
+        self.assertIn("| no_path (gave_up) 1 |", table)
         self.assertEqual("\n".join(self.lines("navigators.svg")).count("<polyline"), 8)
 
     def test_one_rover_alone(self):
@@ -248,7 +248,7 @@ class GestaltStudy(StudyTest):
                                  for multibody in (False, True) for printed in (True, False)])
         self.assertTrue(all("--seed 9" in line for line in runs))
         # 40 moves of 3 trials, 6 rear looks, 4 reversals, 3 stops; 21 m by odometer for 12 m.
-        self.assertIn("| jammed 1 | 13 | 2.0 | 10 | 1.0 | +75 |", out)
+        self.assertIn("| jammed 1, no_path (gave_up) 1 | 13 | 2.0 | 10 | 1.0 | +75 |", out)
 
     def test_the_odometer_leaves_out_drives_that_got_stuck(self):
         out = self.gestalt("--tables", "odometer")

@@ -47,7 +47,7 @@ class StudyTest(unittest.TestCase):
     """Scripts in this process, whose commands are noted and not given, and leave `rows` in every run folder."""
 
     rows = [{"outcome": "no_path", "x": 0.0}]
-    summary = {"provenance": {"version": "0.1.0", "commit": "abc"}}
+    summary = {"provenance": {"version": "0.1.0", "commit": "abc"}, "causes": {"gave_up": 1}}
 
     def setUp(self):
         self.root = Path(self.enterContext(tempfile.TemporaryDirectory()))
