@@ -57,6 +57,10 @@ class Tuning(unittest.TestCase):
             self.assertTrue(all(lever.startswith(f"navigation.{own}.") for lever in brain.levers), name)
             self.assertFalse(set(brain.levers) & set(brain.values), name)
 
+    def test_a_sensor_leaves_the_others_as_they_are(self):
+        self.assertEqual(brains.paths({"a": 1, "b": {"c": 2, "d": {"e": [3]}}}, "x"), {"x.a": 1, "x.b.c": 2, "x.b.d.e": [3]})
+        self.assertFalse({"sensors", "perception", "navigation"} & {path for brain in brains.BRAINS.values() for path in brain.values})
+
 
 class Counts(unittest.TestCase):
     def test_layouts_are_the_units(self):
