@@ -34,10 +34,17 @@ BEHAVIOUR = {"navigation.navigator": "pathfinder", "navigation.pathfinder.goal_t
     for name, value in json.loads(STRIPE.read_text(encoding="utf-8"))["navigation"]["pathfinder"].items()}
 
 
+def paths(group, name):
+    """The values of a group by their paths: a group itself would take the place of the other members."""
+    return {path: value for key, member in group.items()
+            for path, value in (paths(member, f"{name}.{key}") if isinstance(member, dict) else {f"{name}.{key}": member}).items()}
+
+
 def stripe():
     """The sensor of 1995 in the place of the cameras."""
     told = json.loads(STRIPE.read_text(encoding="utf-8"))
-    return {"sensors": told["sensors"], "perception": {"hazard": told["perception"]["hazard"] | {"agreement": "rescan_same_pose"}}}
+    return paths(told["sensors"], "sensors") | paths(told["perception"], "perception") | {
+        "perception.hazard.agreement": "rescan_same_pose"}
 
 
 @dataclass(frozen=True)
@@ -64,7 +71,7 @@ _ENAV = tuple(f"navigation.enav.{name}" for name in (
     "ace.min_clearance_share", "ace.max_tilt_deg", "ace.max_wheel_drop_radii", "ace.wheel_box_diameters", "ace.min_seen_share",
     "map.unseen_factor", "tree.max_curvature_per_m", "drive.max_checks"))
 BRAINS = {
-    "behaviour, light stripe": Brain("1995", BEHAVIOUR | stripe(), _BEHAVIOUR, knows=(DEAD, VISUAL, PERFECT)),
+    "behaviour, light stripe": Brain("1995", BEHAVIOUR | stripe(), knows=(DEAD, VISUAL, PERFECT)),
     "behaviour": Brain("1995", BEHAVIOUR, _BEHAVIOUR),
     "behaviour, steps from the plane": Brain("", BEHAVIOUR | {"perception.cloud_elevations.frame": "plane"}, _BEHAVIOUR),
     "bug2": Brain("1987", {"navigation.bug2.goal_tolerance_m": 0.5}, tuple(f"navigation.bug2.{name}" for name in (
