@@ -88,6 +88,7 @@ Regret RegretOf(const ScoredCells& cells, const std::string& group = "") {
   const double mean = all.regret / all.weight;
   const double mean_weight = all.weight / static_cast<double>(layouts.size());
   std::vector<double> values;
+  values.reserve(layouts.size());
   for (const Sums& of : layouts) {
     values.push_back(mean + (of.regret - mean * of.weight) / mean_weight);
   }
