@@ -35,7 +35,7 @@ def commands(rockyard):
     yield [rockyard, "report", "run", "gyro", "--out", "both.html"]
     yield [rockyard, "sweep", str(ROOT / "scenarios/sweeps/abundance.json"), "--trials", "60", "--out", "sweep"]
     yield [rockyard, "report", "sweep"]
-    yield [rockyard, "run", str(ROOT / "scenarios/pathfinder/vl2.json"), *quick, "--trials", "40", "--out", "vl2"]
+    yield [rockyard, "run", str(ROOT / "scenarios/pathfinder/vl2.json"), "--trials", "40", "--out", "vl2"]
     yield [rockyard, "replay", "vl2", "--trial", "17", "--out", "stuck.html"]
     yield [rockyard, "replay", "run", "--trial", "3", "--with", "gyro", "--out", "pair.html"]
     yield [rockyard, "replay", str(ROOT / "scenarios/mars/mfex_nominal.json"), "--trial", "0", *quick, "--out",
