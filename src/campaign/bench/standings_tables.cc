@@ -82,6 +82,8 @@ report::ResultTable Standings::Ends() const {
 
 std::string Standings::Markdown() const {
   const auto percent = [](double share) { return fmt::format("{:.1f}", 100.0 * share); };
+  // No number where no drive arrives in both.
+  const auto ratio = [](double of) { return std::isnan(of) ? "" : fmt::format("{:.2f}", of); };
   std::string text = fmt::format(
       "| entry | arrived [%] | to {} [points] | | ranks | declared [%] | unsafe [%] | scraped [%] "
       "| regret [%] | way | time | energy | tells [points] "
@@ -90,13 +92,14 @@ std::string Standings::Markdown() const {
   for (const Standing& of : entries) {
     const bool base = of.run.name() == baseline;
     text += fmt::format(
-        "| {}{} | {} | {} | {} | {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {} |\n",
-        of.run.name(), of.passes_gate ? "" : " (not safe enough)", Percent(of.score),
+        "| {}{} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", of.run.name(),
+        of.passes_gate ? "" : " (not safe enough)", Percent(of.score),
         base ? "" : Percent(of.difference), base ? "baseline" : NameOf(of.verdict),
         of.best_rank == of.worst_rank ? fmt::format("{}", of.best_rank)
                                       : fmt::format("{} to {}", of.best_rank, of.worst_rank),
         percent(of.declared), percent(of.unsafe), percent(of.scraped), Percent(of.regret.mean),
-        of.way_ratio, of.time_ratio, of.energy_ratio, base ? "" : percent(of.told));
+        ratio(of.way_ratio), ratio(of.time_ratio), ratio(of.energy_ratio),
+        base ? "" : percent(of.told));
   }
   text += "\n| arrived [%] |";
   for (const ScoredPart& group : entries.front().groups) text += fmt::format(" {} |", group.name);

@@ -15,6 +15,7 @@ namespace {
 using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
+using testing::Not;
 using truth::TrialOutcome;
 
 constexpr TrialOutcome kYes = TrialOutcome::kGoalReached;
@@ -167,6 +168,8 @@ TEST_F(StandingsTest, RanksAreThoseThatAllPairsAtOnceAllow) {
     EXPECT_EQ(standings.entries[i].best_rank, 2);
     EXPECT_EQ(standings.entries[i].worst_rank, 3);
   }
+  // `few` and `most` arrive together in no layout.
+  EXPECT_THAT(standings.Markdown(), Not(HasSubstr("nan")));
 }
 
 // By hand: ways of 10.5, 11.5 and 13.5 m to a goal at 7.6 m, in layouts with two, one and two of
