@@ -425,7 +425,8 @@ def table_3(study):
     if not study.benchmark.exists():
         return None
     rows = []
-    for result in json.loads(shared.run([study.benchmark, "--benchmark_format=json"]))["benchmarks"]:
+    steps = f"--benchmark_filter=^({'|'.join(TABLE_3_STEPS)})(/|$)"
+    for result in json.loads(shared.run([study.benchmark, "--benchmark_format=json", steps]))["benchmarks"]:
         step, cells = TABLE_3_STEPS[result["name"].split("/")[0]], result["label"].split(" cm ")[0]
         growth = [f"{result[key]:.2f}" if key in result else "-"
                   for key in ("growth", "P3_growth", "Sparc_growth", "RAD_growth")]
